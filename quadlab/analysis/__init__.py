@@ -1,0 +1,1 @@
+"""Reads records into tables and statistics; no plotting."""

@@ -1,0 +1,1 @@
+"""Turns plan and state into joint torques: references, tasks, limits and the solvers that combine them."""

@@ -1,0 +1,28 @@
+"""Exceptions for mistakes of the caller; outcomes of a trial are values, not exceptions."""
+
+
+class QuadlabError(Exception):
+    """Base of every error that quadlab raises on purpose.
+
+    The message is one line: what was wrong, what was expected, what exists.
+    """
+
+
+class ConfigurationError(QuadlabError):
+    """A configuration that cannot describe a trial (exit code 2 at the command line)."""
+
+
+class RobotDescriptionError(QuadlabError):
+    """A robot description that cannot be loaded or does not have the named parts."""
+
+
+class PlanningProblemError(QuadlabError):
+    """A planning problem that is malformed before any solver sees it."""
+
+
+class LogError(QuadlabError):
+    """A trial log that is missing, incomplete or not one of ours."""
+
+
+class MissingDependencyError(QuadlabError):
+    """A system library or optional package that the requested action needs."""

@@ -1,0 +1,1 @@
+"""What the robot believes about itself and the ground."""

@@ -1,0 +1,1 @@
+"""Rotations, splines and polygons."""

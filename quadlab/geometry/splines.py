@@ -1,0 +1,84 @@
+"""Piecewise polynomials and the quintic that joins two states."""
+
+from bisect import bisect_right
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from quadlab.geometry.rotations import Array
+
+
+@dataclass(frozen=True)
+class PiecewisePolynomial:
+    """A curve of n polynomials, each in its local time.
+
+    Outside its span it continues at rest: the end value, with zero derivatives.
+
+    Attributes:
+        knots: (n + 1,) increasing times in [s].
+        coefficients: (n, degree + 1, d); entry [k, i] multiplies (t - knots[k])**i.
+    """
+
+    knots: Array
+    coefficients: Array
+
+    @cached_property
+    def _knot_list(self) -> list[float]:
+        return [float(knot) for knot in self.knots]
+
+    @cached_property
+    def _derivatives(self) -> list[Array]:
+        tables = [self.coefficients]
+        for _ in range(3):
+            last = tables[-1]
+            powers = np.arange(1, last.shape[1])[None, :, None]
+            tables.append(last[:, 1:] * powers if last.shape[1] > 1 else np.zeros_like(last[:, :1]))
+        return tables
+
+    @property
+    def dimension(self) -> int:
+        """Number of components d of the curve."""
+        return int(self.coefficients.shape[2])
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last knot in [s]."""
+        return self._knot_list[0], self._knot_list[-1]
+
+    def __call__(self, time_s: float, derivative: int = 0) -> Array:
+        """Return the value (or the 1st to 3rd time derivative) at ``time_s``, (d,)."""
+        start, end = self.span
+        if derivative and not start <= time_s <= end:
+            return np.zeros(self.dimension)
+        piece, local = self.locate(time_s)
+        table = self._derivatives[derivative][piece]
+        value: Array = table[-1].copy()
+        for row in table[-2::-1]:
+            value = value * local + row
+        return value
+
+    def locate(self, time_s: float) -> tuple[int, float]:
+        """Return (piece, local time in [s]) that hold at ``time_s``; a knot belongs to the later piece."""
+        knots = self._knot_list
+        inside = min(max(time_s, knots[0]), knots[-1])
+        piece = min(bisect_right(knots, inside) - 1, len(knots) - 2)
+        return piece, inside - knots[piece]
+
+
+def quintic_between(start: Array, end: Array, duration_s: float) -> Array:
+    """Return the coefficients, (6, d) ascending powers, of the quintic Hermite polynomial between two states.
+
+    Args:
+        start: position, velocity and acceleration at time 0, (3, d).
+        end: the same at time ``duration_s``, (3, d).
+        duration_s: duration in [s], positive.
+    """
+    t = duration_s
+    p0, v0, a0 = start
+    p1, v1, a1 = end
+    delta = p1 - p0
+    c3 = (20 * delta - (8 * v1 + 12 * v0) * t - (3 * a0 - a1) * t**2) / (2 * t**3)
+    c4 = (-30 * delta + (14 * v1 + 16 * v0) * t + (3 * a0 - 2 * a1) * t**2) / (2 * t**4)
+    c5 = (12 * delta - 6 * (v1 + v0) * t - (a0 - a1) * t**2) / (2 * t**5)
+    return np.stack([p0, v0, 0.5 * a0, c3, c4, c5])

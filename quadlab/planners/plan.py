@@ -1,0 +1,113 @@
+"""A motion plan: curves and footholds in the plan frame that can be evaluated at any time."""
+
+from dataclasses import dataclass, field
+
+from quadlab.gaits.schedule import BoolArray, ContactSchedule
+from quadlab.geometry.rotations import Array
+from quadlab.geometry.splines import PiecewisePolynomial
+
+
+@dataclass(frozen=True)
+class PlanSample:
+    """A plan at one time; everything in the plan frame P.
+
+    Attributes:
+        com_position, com_velocity, com_acceleration: (3,) in [m], [m/s], [m/s^2].
+        yaw, yaw_rate: heading of the base in [rad], [rad/s].
+        cop: centre of pressure on the ground, (2,) in [m].
+        contacts: (4,) flags.
+    """
+
+    com_position: Array
+    com_velocity: Array
+    com_acceleration: Array
+    yaw: float
+    yaw_rate: float
+    cop: Array
+    contacts: BoolArray
+
+
+@dataclass(frozen=True)
+class PlanVerdict:
+    """What the independent checker found on its dense grid.
+
+    Attributes:
+        values: worst violation by name, in the unit that the name carries.
+        tolerances: the tolerance each of them was compared with.
+    """
+
+    values: dict[str, float]
+    tolerances: dict[str, float]
+
+    @property
+    def violated(self) -> list[str]:
+        """Names whose value is above its tolerance (or not a number)."""
+        return [name for name, value in self.values.items() if not value <= self.tolerances[name]]
+
+    @property
+    def accepted(self) -> bool:
+        """Whether nothing is violated."""
+        return not self.violated
+
+
+@dataclass(frozen=True)
+class PlanReport:
+    """How a plan came about.
+
+    Attributes:
+        planner: kind of the planner.
+        build_ms, solve_ms: wall time of building and of solving in [ms].
+        iterations: solver iterations.
+        variables, constraints: size of the nonlinear program.
+        costs: final cost by name.
+        residuals: worst violation of each named constraint set, in its own unit, as the transcription sees it.
+    """
+
+    planner: str
+    build_ms: float
+    solve_ms: float
+    iterations: int
+    variables: int
+    constraints: int
+    costs: dict[str, float] = field(default_factory=dict)
+    residuals: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class MotionPlan:
+    """What a planner hands to a controller.
+
+    Attributes:
+        schedule: contact flags of the plan.
+        com: centre of mass over time, d = 3, in [m].
+        heading: yaw of the base over time, d = 1, in [rad].
+        cop: centre of pressure over time, d = 2, in [m].
+        footholds: per leg (swings + 1, 3) in [m]: where it starts, then where each swing ends.
+        report: how it was made.
+        verdict: what the checker says about it.
+    """
+
+    schedule: ContactSchedule
+    com: PiecewisePolynomial
+    heading: PiecewisePolynomial
+    cop: PiecewisePolynomial
+    footholds: tuple[Array, ...]
+    report: PlanReport
+    verdict: PlanVerdict
+
+    @property
+    def duration_s(self) -> float:
+        """Length of the plan in [s]."""
+        return self.schedule.duration_s
+
+    def at(self, time_s: float) -> PlanSample:
+        """Return the plan at ``time_s`` in [s]; after its end it stands still."""
+        return PlanSample(
+            com_position=self.com(time_s),
+            com_velocity=self.com(time_s, 1),
+            com_acceleration=self.com(time_s, 2),
+            yaw=float(self.heading(time_s)[0]),
+            yaw_rate=float(self.heading(time_s, 1)[0]),
+            cop=self.cop(time_s),
+            contacts=self.schedule.contacts_at(time_s),
+        )

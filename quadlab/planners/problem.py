@@ -1,0 +1,72 @@
+"""The planning problem, one type for all planners: where the robot is, where to, and when which foot stands."""
+
+from dataclasses import dataclass
+
+from quadlab.gaits.schedule import ContactSchedule
+from quadlab.geometry.rotations import Array
+
+GRAVITY = 9.81  # [m/s^2]
+
+
+@dataclass(frozen=True)
+class PlanningModel:
+    """What a planner needs to know of a robot.
+
+    Attributes:
+        com_height: height of the centre of mass over the ground in [m].
+        nominal_feet: foot positions relative to the CoM in the heading frame, (4, 2) in [m].
+        reach: half size (forward, sideways) of the box around the nominal position that a foot may use, (2,) in [m].
+        gravity: in [m/s^2].
+    """
+
+    com_height: float
+    nominal_feet: Array
+    reach: Array
+    gravity: float = GRAVITY
+
+
+@dataclass(frozen=True)
+class PlanStart:
+    """The state a plan begins from, in the plan frame P (z up, ground at z = 0).
+
+    Attributes:
+        com_position: (2,) in [m].
+        com_velocity: (2,) in [m/s].
+        yaw: heading of the base in [rad].
+        feet: contact points, (4, 3) in [m].
+    """
+
+    com_position: Array
+    com_velocity: Array
+    yaw: float
+    feet: Array
+
+
+@dataclass(frozen=True)
+class Waypoints:
+    """Where the CoM and the heading should be at given times; the last one is the goal, reached at rest.
+
+    Attributes:
+        times_s: (n,) increasing in [s].
+        poses: (n, 3): x, y in [m] and yaw in [rad] (not wrapped), in the plan frame.
+    """
+
+    times_s: Array
+    poses: Array
+
+
+@dataclass(frozen=True)
+class PlanningProblem:
+    """Everything a planner is told.
+
+    Attributes:
+        start: state at time 0.
+        waypoints: the path to the goal; the first one is the start.
+        schedule: contact flags over the whole horizon.
+        model: robot as the planner sees it.
+    """
+
+    start: PlanStart
+    waypoints: Waypoints
+    schedule: ContactSchedule
+    model: PlanningModel

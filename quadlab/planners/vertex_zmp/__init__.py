@@ -1,0 +1,1 @@
+"""Vertex-based ZMP trajectory optimisation (Winkler 2017)."""

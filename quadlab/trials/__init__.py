@@ -1,0 +1,1 @@
+"""One trial: configuration, closed loop, record, outcome."""
