@@ -30,6 +30,7 @@ class ControlTelemetry:
         cop_reference: planned centre of pressure, (2,).
         terrain_plane: a, b, c of z = a + b (x - x_com) + c (y - y_com), (3,).
         foot_positions, foot_position_references: contact points, (4, 3); a stance foot's reference is NaN.
+        foot_contact_velocities: of the material points of the feet at ``foot_positions``, (4, 3) in [m/s].
         leg_modes: ``LegMode`` of each leg, (4,).
         planned_contacts: flags of the plan, (4,).
         contact_forces_desired: (4, 3) in [N]; zero for legs in the air.
@@ -53,6 +54,7 @@ class ControlTelemetry:
     terrain_plane: Array
     foot_positions: Array
     foot_position_references: Array
+    foot_contact_velocities: Array
     leg_modes: tuple[LegMode, ...]
     planned_contacts: BoolArray
     contact_forces_desired: Array

@@ -1,0 +1,8 @@
+"""Run one trial, or a sweep with -m: python experiments/run_trial.py robot=anymal_b gait=trot."""
+
+import sys
+
+from quadlab.trials.main import main
+
+if __name__ == "__main__":
+    sys.exit(main())

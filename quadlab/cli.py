@@ -1,0 +1,85 @@
+"""The console command ``quadlab``: run a trial, draw it, film it, rescue its log."""
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from quadlab import __version__
+from quadlab.errors import QuadlabError
+
+EXIT_USAGE = 2
+COMMANDS = ("run", "plot", "render", "recover")
+
+_EPILOG = """
+quadlab run --help lists what can be overridden. Without a command, quadlab runs a trial:
+quadlab gait=walk seed=3 is quadlab run gait=walk seed=3.
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return the exit code.
+
+    Args:
+        arguments: without the program's name; those of the process by default.
+    """
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    if given and given[0] == "run":
+        return _run(given[1:])
+    if _is_override(given):
+        return _run(given)
+    options = _parser().parse_args(given)
+    action: Callable[[Path], list[Path]] = options.action
+    try:
+        written = action(options.path)
+    except QuadlabError as error:
+        sys.stderr.write(f"quadlab: {error}\n")
+        return EXIT_USAGE
+    for path in written:
+        sys.stdout.write(f"{path}\n")
+    return 0
+
+
+def _is_override(given: Sequence[str]) -> bool:
+    """Whether the arguments are those of ``run`` with the word left out."""
+    return any("=" in argument for argument in given[:1]) or given[:1] == ["-m"] or given[:1] == ["--multirun"]
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser("quadlab", description=__doc__, epilog=_EPILOG)
+    parser.add_argument("--version", action="version", version=f"quadlab {__version__}")
+    commands = parser.add_subparsers(required=True, metavar="command")
+    commands.add_parser("run", help="run a trial, or with -m a sweep: overrides such as robot=anymal_b gait=trot")
+    for name, help_text, what, action in (
+        ("plot", "draw the figures of a trial", "directory of the trial", _plot),
+        ("render", "make a video of a trial", "directory of the trial", _render),
+        ("recover", "rescue the log of a trial that was killed", "the .mcap.part file", _recover),
+    ):
+        command = commands.add_parser(name, help=help_text)
+        command.add_argument("path", type=Path, help=what)
+        command.set_defaults(action=action)
+    return parser
+
+
+def _run(overrides: Sequence[str]) -> int:
+    from quadlab.trials.main import main as run_main  # noqa: PLC0415
+
+    return run_main(overrides)
+
+
+def _plot(directory: Path) -> list[Path]:
+    from quadlab.plotting.trial_figures import plot_trial  # noqa: PLC0415
+
+    return list(plot_trial(directory))
+
+
+def _render(directory: Path) -> list[Path]:
+    from quadlab.trials.render import render_trial  # noqa: PLC0415
+
+    return [render_trial(directory)]
+
+
+def _recover(path: Path) -> list[Path]:
+    from quadlab.trials.recording.recover import recover_log  # noqa: PLC0415
+
+    return [recover_log(path)]

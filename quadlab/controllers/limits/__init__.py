@@ -1,0 +1,1 @@
+"""Limits, one a file; a limit is a task whose rows are inequalities."""

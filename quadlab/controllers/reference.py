@@ -1,0 +1,52 @@
+"""What the tasks of one tick shall follow, in world components."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quadlab.gaits.schedule import BoolArray
+from quadlab.geometry.rotations import Array
+
+
+@dataclass(frozen=True)
+class ControlReference:
+    """Desired motion and limits of one control tick.
+
+    Attributes:
+        com_position, com_velocity, com_acceleration: x and y, (2,) in [m], [m/s], [m/s^2].
+        base_height: of the base origin in [m]; it shall be at rest.
+        base_rotation: base to world, (3, 3).
+        base_angular_velocity: (3,) in [rad/s].
+        foot_positions, foot_velocities, foot_accelerations: contact points of the legs in the air, (4, 3)
+            in [m], [m/s], [m/s^2]; rows of standing legs are NaN.
+        stance: which legs carry load, (4,).
+        normal_force_limits: largest normal force of each leg, (4,) in [N].
+        torque_limits: of the joints, (12,) in [N m].
+        weight: of the robot in [N].
+        ground_axes: columns heading, lateral and normal of the ground, (3, 3).
+    """
+
+    com_position: Array
+    com_velocity: Array
+    com_acceleration: Array
+    base_height: float
+    base_rotation: Array
+    base_angular_velocity: Array
+    foot_positions: Array
+    foot_velocities: Array
+    foot_accelerations: Array
+    stance: BoolArray
+    normal_force_limits: Array
+    torque_limits: Array
+    weight: float
+    ground_axes: Array
+
+    @property
+    def stance_legs(self) -> list[int]:
+        """Numbers of the legs that carry load."""
+        return [int(leg) for leg in np.flatnonzero(self.stance)]
+
+    @property
+    def swing_legs(self) -> list[int]:
+        """Numbers of the legs in the air."""
+        return [int(leg) for leg in np.flatnonzero(~self.stance)]

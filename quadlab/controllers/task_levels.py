@@ -1,0 +1,64 @@
+"""Priorities as data: levels of named tasks in a controller's YAML."""
+
+from typing import Annotated, Any
+
+from pydantic import Field, PlainSerializer, PlainValidator
+
+from quadlab.configuration import StrictModel, registered
+from quadlab.controllers.limits import friction_cone, torque_limits
+from quadlab.controllers.tasks import (
+    base_height,
+    base_orientation,
+    com_position,
+    contact_force_minimisation,
+    swing_feet,
+)
+from quadlab.controllers.tasks.task import Task
+
+__all__ = ["LevelConfig", "TaskConfig", "build_task"]
+
+_TASK_MODULES = (
+    base_height,
+    base_orientation,
+    com_position,
+    contact_force_minimisation,
+    friction_cone,
+    swing_feet,
+    torque_limits,
+)
+"""Importing a task's module registers it; a new task is added here."""
+
+
+def _validate(value: Any) -> StrictModel:
+    if isinstance(value, StrictModel):
+        return value
+    name = value.get("task") if isinstance(value, dict) else None
+    known = registered("task")
+    if name not in known:
+        raise ValueError(f"unknown task {name!r}; known: {', '.join(sorted(known))}")
+    config: StrictModel = known[name].Config.model_validate(value)  # type: ignore[attr-defined]
+    return config
+
+
+TaskConfig = Annotated[
+    StrictModel, PlainValidator(_validate), PlainSerializer(lambda config: config.model_dump(), return_type=dict)
+]
+"""The configuration of any registered task, chosen by its key ``task``."""
+
+
+class LevelConfig(StrictModel):
+    """Tasks of one priority.
+
+    Attributes:
+        name: under which residuals are logged.
+        tasks: at least one.
+    """
+
+    name: str
+    tasks: Annotated[tuple[TaskConfig, ...], Field(min_length=1)]
+
+
+def build_task(config: Any) -> Task:
+    """Return the task that ``config`` describes."""
+    task: Task = registered("task")[config.task](config)
+    return task

@@ -1,0 +1,1 @@
+"""Motion tasks, one a file."""

@@ -1,0 +1,33 @@
+"""Height of the base over the ground (Bellicoso 2016, Table I, "main body height")."""
+
+from typing import Literal
+
+import numpy as np
+
+from quadlab.configuration import register
+from quadlab.controllers.reference import ControlReference
+from quadlab.controllers.tasks.gains import TrackingGains
+from quadlab.controllers.tasks.task import TaskRows, Variable, equation
+from quadlab.robots.kinematics import Kinematics
+
+
+@register("task", "base_height")
+class BaseHeightTask:
+    """J_B,z u_dot = - K_d z_dot + K_p (z_ref - z) - J_dot u."""
+
+    class Config(TrackingGains):
+        """Gains of the vertical base motion."""
+
+        task: Literal["base_height"]
+
+    def __init__(self, config: Config) -> None:
+        self.config = config
+
+    def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
+        """Return one row in accelerations."""
+        target = self.config.acceleration(
+            0.0,
+            -kinematics.base_linear_velocity[2:3],
+            np.array([reference.base_height - kinematics.base_position[2]]),
+        )
+        return equation(Variable.ACCELERATION, kinematics.base_jacobian[2:3], target - kinematics.base_bias[2:3])

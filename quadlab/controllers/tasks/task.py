@@ -1,0 +1,49 @@
+"""A task: linear rows in accelerations, torques or contact forces (Bellicoso 2016, Eq. 8)."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Protocol
+
+from quadlab.controllers.reference import ControlReference
+from quadlab.geometry.rotations import Array
+from quadlab.robots.kinematics import Kinematics
+
+
+class Variable(StrEnum):
+    """The block of the decision vector that rows are written in."""
+
+    ACCELERATION = "acceleration"
+    """Generalised acceleration u_dot, (18,): base linear and angular in base axes, then joints."""
+    TORQUE = "torque"
+    """Joint torques tau, (12,) in [N m]."""
+    FORCE = "force"
+    """Contact forces lambda of the standing legs in world axes, (3 n_stance,) in [N]."""
+
+
+@dataclass(frozen=True)
+class TaskRows:
+    """Rows lower <= matrix x <= upper of one variable block; equal bounds make an equation.
+
+    Attributes:
+        variable: the block x.
+        matrix: (m, n).
+        lower, upper: (m,), infinite where there is no bound.
+    """
+
+    variable: Variable
+    matrix: Array
+    lower: Array
+    upper: Array
+
+
+def equation(variable: Variable, matrix: Array, target: Array) -> TaskRows:
+    """Return the rows of ``matrix`` x = ``target``."""
+    return TaskRows(variable, matrix, target, target)
+
+
+class Task(Protocol):
+    """One objective or limit; it knows its gains, not its priority."""
+
+    def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
+        """Return the rows of this tick; no rows (m = 0) if nothing is asked."""
+        ...

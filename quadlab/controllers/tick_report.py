@@ -1,0 +1,65 @@
+"""Collects what one tick did into its telemetry."""
+
+import numpy as np
+
+from quadlab.controllers.reduced_dynamics import ReducedDynamics
+from quadlab.controllers.telemetry import ControlTelemetry
+from quadlab.controllers.tracking.tracker import TrackedTick
+from quadlab.geometry.rotations import Array, euler_zyx
+from quadlab.robots.kinematics import Kinematics
+
+
+def describe_tick(
+    tracked: TrackedTick,
+    kinematics: Kinematics,
+    dynamics: ReducedDynamics,
+    *,
+    torques: Array,
+    residuals: dict[str, float],
+    iterations: int,
+    fallbacks: int,
+    timings_us: tuple[float, float, float],
+) -> ControlTelemetry:
+    """Return the telemetry of a tick.
+
+    Args:
+        tracked: what the tracker asked for.
+        kinematics: measured.
+        dynamics: reduced to the torques.
+        torques: commanded, (12,) in [N m].
+        residuals: unmet part of each level by name.
+        iterations: of the solver.
+        fallbacks: counted so far.
+        timings_us: model, reference and solve in [us].
+    """
+    reference = tracked.reference
+    forces = np.zeros((4, 3))
+    forces[reference.stance_legs] = dynamics.forces(torques)
+    yaw, pitch, roll = euler_zyx(reference.base_rotation)
+    height_of_com_over_base = kinematics.com_position[2] - kinematics.base_position[2]
+    return ControlTelemetry(
+        plan_time_s=tracked.plan_time_s,
+        plan_pose_in_world=tracked.torso_alignment.origin(),
+        com_position=kinematics.com_position,
+        com_velocity=kinematics.com_velocity,
+        com_position_reference=np.array([*reference.com_position, reference.base_height + height_of_com_over_base]),
+        com_velocity_reference=np.array([*reference.com_velocity, 0.0]),
+        base_height_reference=reference.base_height,
+        base_rpy_reference=np.array([roll, pitch, yaw]),
+        cop_reference=tracked.torso_alignment.position(tracked.sample.cop),
+        terrain_plane=np.array([tracked.terrain.height, *tracked.terrain.slope]),
+        foot_positions=kinematics.foot_positions,
+        foot_position_references=reference.foot_positions,
+        foot_contact_velocities=kinematics.contact_jacobians @ kinematics.generalized_velocity,
+        leg_modes=tracked.modes,
+        planned_contacts=tracked.sample.contacts,
+        contact_forces_desired=forces,
+        torques_desired=torques,
+        level_residuals=residuals,
+        solver_iterations=iterations,
+        fallbacks=fallbacks,
+        model_us=timings_us[0],
+        reference_us=timings_us[1],
+        solve_us=timings_us[2],
+        events=tracked.events,
+    )

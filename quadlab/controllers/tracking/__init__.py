@@ -1,0 +1,1 @@
+"""From plan and state to the reference of a tick: contacts, alignment, swing feet, torso."""

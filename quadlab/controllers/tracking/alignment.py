@@ -1,0 +1,104 @@
+"""Where the plan lies in the world: the alignment of plan frame P and inertial frame I (Gehring 2017, III-A)."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from quadlab.geometry.rotations import Array, rotation_2d, wrap_angle
+
+
+@dataclass(frozen=True)
+class PlanarPose:
+    """A rotation about the vertical and a pair of points that it lays upon each other (Eq. 11-12).
+
+    Attributes:
+        point_in_plan, point_in_world: the reference point R in both frames, (2,) in [m].
+        yaw: from plan axes to world axes in [rad].
+    """
+
+    point_in_plan: Array
+    point_in_world: Array
+    yaw: float
+
+    def position(self, position_in_plan: Array) -> Array:
+        """Return a point of the plan, (2,) in [m], in the world."""
+        moved: Array = self.point_in_world + self.vector(position_in_plan - self.point_in_plan)
+        return moved
+
+    def vector(self, vector_in_plan: Array) -> Array:
+        """Return a direction of the plan, (2,), in world axes."""
+        turned: Array = rotation_2d(self.yaw) @ vector_in_plan
+        return turned
+
+    def origin(self) -> Array:
+        """Return x, y in [m] and yaw in [rad] of the plan frame in the world, (3,)."""
+        return np.array([*self.position(np.zeros(2)), self.yaw])
+
+
+def identity_alignment() -> PlanarPose:
+    """Return the alignment of a plan that lies where it was made."""
+    return PlanarPose(np.zeros(2), np.zeros(2), 0.0)
+
+
+def feet_alignment(planned_feet: Array, measured_feet: Array) -> PlanarPose:
+    """Align mean and heading of the feet: of standing feet their stance points, of others their lift-off points.
+
+    Args:
+        planned_feet: the footholds in the plan, (4, 2) in [m], order ``LEGS``.
+        measured_feet: the same feet in the world, (4, 2) in [m].
+    """
+    yaw = wrap_angle(_feet_heading(measured_feet) - _feet_heading(planned_feet))
+    return PlanarPose(planned_feet.mean(axis=0), measured_feet.mean(axis=0), yaw)
+
+
+def base_alignment(
+    planned_position: Array, planned_yaw: float, measured_position: Array, measured_yaw: float
+) -> PlanarPose:
+    """Align position, (2,) in [m], and heading in [rad] of the torso (its centre of mass serves as reference point)."""
+    return PlanarPose(planned_position, measured_position, wrap_angle(measured_yaw - planned_yaw))
+
+
+def _feet_heading(feet: Array) -> float:
+    """Direction from the middle of the hind feet to the middle of the fore feet in [rad]."""
+    forward = feet[0] + feet[1] - feet[2] - feet[3]
+    return math.atan2(forward[1], forward[0])
+
+
+class SmoothedAlignment:
+    """First-order filter of an alignment that jumps whenever a new foothold is established.
+
+    A jump is turned into an offset that leaves the plan's torso where it was and then decays.
+    """
+
+    def __init__(self, time_constant_s: float, alignment: PlanarPose) -> None:
+        self.time_constant_s = time_constant_s
+        self._raw = alignment
+        self._yaw_offset = 0.0
+        self._offset = np.zeros(2)
+
+    def update(self, raw: PlanarPose, torso_in_plan: Array, period_s: float) -> PlanarPose:
+        """Return the smoothed alignment.
+
+        Args:
+            raw: alignment of this tick.
+            torso_in_plan: planned position that must not jump, (2,) in [m].
+            period_s: control period in [s].
+        """
+        self._absorb(raw, torso_in_plan)
+        decay = math.exp(-period_s / self.time_constant_s)
+        self._yaw_offset *= decay
+        self._offset = self._offset * decay
+        return self._current()
+
+    def _absorb(self, raw: PlanarPose, torso_in_plan: Array) -> None:
+        before = self._current()
+        self._raw = raw
+        self._yaw_offset = wrap_angle(before.yaw - raw.yaw)
+        self._offset = np.zeros(2)
+        self._offset = before.position(torso_in_plan) - self._current().position(torso_in_plan)
+
+    def _current(self) -> PlanarPose:
+        return PlanarPose(
+            self._raw.point_in_plan, self._raw.point_in_world + self._offset, self._raw.yaw + self._yaw_offset
+        )

@@ -1,0 +1,24 @@
+"""Attitude of torso and ground: the control frame of Gehring 2017 and Bellicoso 2016."""
+
+import math
+
+import numpy as np
+
+from quadlab.estimation.terrain_plane import TerrainPlane
+from quadlab.geometry.rotations import Array, rotation_zyx
+
+
+def torso_rotation(yaw: float, terrain: TerrainPlane, slope_following: float) -> Array:
+    """Return the desired base rotation, (3, 3): heading ``yaw`` in [rad], roll and pitch a share of the slope."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    slope_x, slope_y = (float(value) for value in terrain.slope)
+    forward, left = c * slope_x + s * slope_y, -s * slope_x + c * slope_y
+    return rotation_zyx(yaw, -math.atan(slope_following * forward), math.atan(slope_following * left))
+
+
+def ground_axes(yaw: float, terrain: TerrainPlane) -> Array:
+    """Return the columns heading, lateral and normal of the ground, (3, 3), for a heading ``yaw`` in [rad]."""
+    normal = terrain.normal
+    lateral = np.cross(normal, np.array([math.cos(yaw), math.sin(yaw), 0.0]))
+    lateral /= np.linalg.norm(lateral)
+    return np.column_stack([np.cross(lateral, normal), lateral, normal])

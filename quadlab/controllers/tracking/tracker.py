@@ -1,0 +1,156 @@
+"""From plan and measured state to the reference of one tick."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from quadlab.controllers.reference import ControlReference
+from quadlab.controllers.telemetry import LegMode
+from quadlab.controllers.tracking.alignment import (
+    PlanarPose,
+    SmoothedAlignment,
+    base_alignment,
+    feet_alignment,
+    identity_alignment,
+)
+from quadlab.controllers.tracking.config import Alignment, TrackingConfig
+from quadlab.controllers.tracking.contact_machine import start_contacts
+from quadlab.controllers.tracking.feet import FootPlanner
+from quadlab.controllers.tracking.force_ramp import normal_force_limit, ramp_duration
+from quadlab.controllers.tracking.torso import ground_axes, torso_rotation
+from quadlab.estimation.terrain_plane import TerrainPlane, blend, fit_plane
+from quadlab.geometry.rotations import Array, yaw_of
+from quadlab.planners.plan import MotionPlan, PlanSample
+from quadlab.planners.problem import GRAVITY
+from quadlab.robots.kinematics import Kinematics
+from quadlab.robots.legs import LEG_COUNT
+from quadlab.robots.model import RobotModel
+
+
+@dataclass(frozen=True)
+class TrackedTick:
+    """The outcome of one tick of the tracker.
+
+    Attributes:
+        reference: what the tasks shall follow.
+        sample: the plan at this tick, in plan frame.
+        plan_time_s: where the plan was looked up in [s].
+        torso_alignment: of the torso's reference.
+        terrain: plane under the robot, written about the CoM.
+        modes: of the legs.
+        events: one line each.
+    """
+
+    reference: ControlReference
+    sample: PlanSample
+    plan_time_s: float
+    torso_alignment: PlanarPose
+    terrain: TerrainPlane
+    modes: tuple[LegMode, ...]
+    events: tuple[str, ...]
+
+
+class MotionTracker:
+    """Keeps contacts, alignment and terrain from tick to tick and turns a plan into references."""
+
+    def __init__(
+        self, config: TrackingConfig, robot: RobotModel, period_s: float, plan: MotionPlan, start: Kinematics
+    ) -> None:
+        self.config = config
+        self.robot = robot
+        self.period_s = period_s
+        self.plan = plan
+        self._weight = robot.mass * GRAVITY
+        self._base_height = float(robot.nominal_state().position_base_in_world[2])
+        self._contacts = start_contacts(config.contact, plan.schedule, self._weight, start.foot_positions)
+        self._ramps_s = [ramp_duration(config.force_ramp, plan.schedule, leg) for leg in range(LEG_COUNT)]
+        self._alignment = SmoothedAlignment(config.alignment.time_constant_s, identity_alignment())
+        self._terrain = fit_plane(start.foot_positions, start.com_position[:2])
+        self._frozen_s = 0.0
+        self._feet = FootPlanner(
+            config.swing,
+            self._base_height,
+            config.contact.search_speed_mps,
+            robot.nominal_feet_in_com,
+            plan.footholds,
+        )
+
+    def update(self, time_s: float, kinematics: Kinematics, normal_forces: Array) -> TrackedTick:
+        """Return references for this tick.
+
+        Args:
+            time_s: time since the plan's start in [s].
+            kinematics: of the measured state.
+            normal_forces: measured under the feet, (4,) in [N].
+        """
+        frozen = self.config.contact.freeze_plan_while_searching and self._contacts.searching
+        self._frozen_s += self.period_s if frozen else 0.0
+        plan_time_s = time_s - self._frozen_s
+        events = self._contacts.update(plan_time_s, self.period_s, kinematics.foot_positions, normal_forces)
+        sample = self.plan.at(plan_time_s)
+        self._update_terrain(kinematics)
+        raw = self._raw_alignment(self.config.alignment.torso, sample, kinematics)
+        torso = self._alignment.update(raw, sample.com_position[:2], self.period_s)
+        return TrackedTick(
+            reference=self._reference(plan_time_s, sample, torso, kinematics, 0.0 if frozen else 1.0),
+            sample=sample,
+            plan_time_s=plan_time_s,
+            torso_alignment=torso,
+            terrain=self._terrain,
+            modes=tuple(leg.mode for leg in self._contacts.legs),
+            events=tuple(events),
+        )
+
+    def _update_terrain(self, kinematics: Kinematics) -> None:
+        points = np.stack([leg.stance_point for leg in self._contacts.legs])
+        newest = fit_plane(points, kinematics.com_position[:2])
+        share = self.period_s / (self.config.torso.terrain_time_constant_s + self.period_s)
+        self._terrain = blend(self._terrain, newest, share)
+
+    def _raw_alignment(self, kind: Alignment, sample: PlanSample, kinematics: Kinematics) -> PlanarPose:
+        if kind is Alignment.NONE:
+            return identity_alignment()
+        if kind is Alignment.BASE:
+            heading = yaw_of(kinematics.base_rotation)
+            return base_alignment(sample.com_position[:2], sample.yaw, kinematics.com_position[:2], heading)
+        legs = self._contacts.legs
+        planned = [
+            points[min(leg.foothold, len(points) - 1), :2]
+            for points, leg in zip(self.plan.footholds, legs, strict=True)
+        ]
+        return feet_alignment(np.stack(planned), np.stack([leg.stance_point[:2] for leg in legs]))
+
+    def _reference(
+        self, plan_time_s: float, sample: PlanSample, torso: PlanarPose, kinematics: Kinematics, speed: float
+    ) -> ControlReference:
+        com_velocity = speed * torso.vector(sample.com_velocity[:2])
+        yaw = sample.yaw + torso.yaw
+        kind = self.config.alignment.swing
+        footholds = torso if kind is self.config.alignment.torso else self._raw_alignment(kind, sample, kinematics)
+        motions = self._feet.motions(
+            self._contacts.legs, plan_time_s, footholds, com_velocity, kinematics, self._terrain
+        )
+        return ControlReference(
+            com_position=torso.position(sample.com_position[:2]),
+            com_velocity=com_velocity,
+            com_acceleration=speed * torso.vector(sample.com_acceleration[:2]),
+            base_height=self._terrain.height_at(kinematics.base_position[:2]) + self._base_height,
+            base_rotation=torso_rotation(yaw, self._terrain, self.config.torso.slope_following),
+            base_angular_velocity=np.array([0.0, 0.0, speed * sample.yaw_rate]),
+            foot_positions=np.stack([motion.position for motion in motions]),
+            foot_velocities=np.stack([motion.velocity for motion in motions]),
+            foot_accelerations=np.stack([motion.acceleration for motion in motions]),
+            stance=self._contacts.stance,
+            normal_force_limits=np.array([self._force_limit(leg, plan_time_s) for leg in range(LEG_COUNT)]),
+            torque_limits=self.robot.torque_limits,
+            weight=self._weight,
+            ground_axes=ground_axes(yaw, self._terrain),
+        )
+
+    def _force_limit(self, leg: int, plan_time_s: float) -> float:
+        state = self._contacts.legs[leg]
+        swings = self.plan.schedule.swings[leg]
+        lift_off_s = swings[state.foothold].start_s if state.foothold < len(swings) else math.inf
+        since_s, until_s = plan_time_s - state.touch_down_s, lift_off_s - plan_time_s
+        return normal_force_limit(self.config.force_ramp, self._weight, self._ramps_s[leg], since_s, until_s)

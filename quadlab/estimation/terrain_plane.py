@@ -1,0 +1,54 @@
+"""The local ground as a plane through the most recent stance feet (Gehring 2017, III-A; Bellicoso 2016, IV)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quadlab.geometry.rotations import Array
+
+
+@dataclass(frozen=True)
+class TerrainPlane:
+    """The plane z = height + slope . (xy - origin), in world components.
+
+    Attributes:
+        origin: where ``height`` holds, (2,) in [m].
+        height: in [m].
+        slope: (dz/dx, dz/dy), (2,).
+    """
+
+    origin: Array
+    height: float
+    slope: Array
+
+    def height_at(self, position_xy: Array) -> float:
+        """Return the height of the plane in [m] at ``position_xy``, (2,) in [m]."""
+        return self.height + float(self.slope @ (position_xy - self.origin))
+
+    def moved_to(self, origin: Array) -> "TerrainPlane":
+        """Return the same plane written about another origin, (2,) in [m]."""
+        return TerrainPlane(origin, self.height_at(origin), self.slope)
+
+    @property
+    def normal(self) -> Array:
+        """Unit normal, pointing up, (3,)."""
+        upward = np.array([-self.slope[0], -self.slope[1], 1.0])
+        unit: Array = upward / np.linalg.norm(upward)
+        return unit
+
+
+def fit_plane(points: Array, origin: Array) -> TerrainPlane:
+    """Return the least-squares plane through ``points``, (n, 3) in [m], n >= 3, written about ``origin``, (2,)."""
+    columns = np.column_stack([np.ones(len(points)), points[:, :2] - origin])
+    height, slope_x, slope_y = np.linalg.lstsq(columns, points[:, 2], rcond=None)[0]
+    return TerrainPlane(origin, float(height), np.array([slope_x, slope_y]))
+
+
+def blend(old: TerrainPlane, new: TerrainPlane, share: float) -> TerrainPlane:
+    """Return ``old`` moved towards ``new`` by ``share`` in [0, 1], written about the origin of ``new``."""
+    same_place = old.moved_to(new.origin)
+    return TerrainPlane(
+        new.origin,
+        same_place.height + share * (new.height - same_place.height),
+        same_place.slope + share * (new.slope - same_place.slope),
+    )

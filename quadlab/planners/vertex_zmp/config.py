@@ -1,0 +1,37 @@
+"""The settings of the vertex-ZMP planner."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from quadlab.configuration import NonNegative, Positive, StrictModel
+from quadlab.planners.checker import CheckerConfig
+
+
+class VertexZmpConfig(StrictModel):
+    """Settings of the vertex-ZMP planner.
+
+    Attributes:
+        polynomial_duration_s: longest polynomial T_k of the CoM spline in [s].
+        robustness_weight: weight of J_lambda, Eq. (21), in [1/s].
+        nominal_foothold_weight: weight of the squared distance of footholds from the nominal stance in [1/m^2].
+        waypoint_weight: weight of the squared distance of the CoM from intermediate waypoints in [1/m^2].
+        reach_margin_m: how much smaller than the reach of the model the enforced box is, to every side, in [m].
+        max_iterations: limit of Ipopt.
+        max_wall_time_s: limit of Ipopt in [s].
+        solver_tolerance: Ipopt's overall convergence tolerance.
+        residual_tolerance: largest residual of any constraint set in its own unit ([m], [m/s] or none).
+        checker: tolerances of the independent checker.
+    """
+
+    kind: Literal["vertex_zmp"]
+    polynomial_duration_s: Positive
+    robustness_weight: NonNegative
+    nominal_foothold_weight: NonNegative
+    waypoint_weight: NonNegative
+    reach_margin_m: NonNegative
+    max_iterations: Annotated[int, Field(ge=1)]
+    max_wall_time_s: Positive
+    solver_tolerance: Positive
+    residual_tolerance: Positive
+    checker: CheckerConfig

@@ -1,0 +1,1 @@
+"""One constraint of the nonlinear program per file."""

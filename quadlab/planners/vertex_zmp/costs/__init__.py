@@ -1,0 +1,1 @@
+"""One cost of the nonlinear program per file."""

@@ -1,0 +1,132 @@
+"""Light, floor, sky and colours of the pictures.
+
+A directional light with a shadow map leaves dark speckles on curved meshes, so that a high spot light throws the
+shadows and a second light without shadows fills them. The floor throws no shadow, and fog hides where it ends.
+"""
+
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from quadlab.geometry.rotations import Array
+
+KEY_LIGHT_OFFSET_SIZES = np.array([1.2, -2.0, 6.0])
+FILL_LIGHT_DIRECTION = (-0.3, 0.5, -1.0)
+FOG_START_SIZES, FOG_END_SIZES = 5.0, 16.0
+HORIZON_RGBA = (0.93, 0.95, 0.97, 1.0)
+ZENITH_RGB = (0.78, 0.86, 0.94)
+WOOD_LIGHT_RGB, WOOD_DARK_RGB = (0.80, 0.62, 0.42), (0.70, 0.52, 0.33)
+FLOOR_MATERIAL, WOOD_MATERIAL = "floor_surface", "wood_surface"
+NOT_A_COLOR = (1.0, 1.0, 1.0, 1.0)
+
+
+def apply_look(spec: Any, robot_size: float, shadow_pixels: int, samples: int, frame_shape: tuple[int, int]) -> None:
+    """Give ``spec``, an ``MjSpec`` that is not compiled yet, its light, floor, sky and fog.
+
+    Planes of the world body become the floor, its other geoms are coloured like wood.
+
+    Args:
+        spec: the specification.
+        robot_size: in [m]; lights and fog scale with it.
+        shadow_pixels: edge of the shadow map.
+        samples: per pixel.
+        frame_shape: height and width of the frames in pixels.
+    """
+    _add_surfaces(spec, robot_size)
+    _set_lights(spec, robot_size)
+    for geom in spec.worldbody.geoms:
+        is_floor = geom.type == mujoco.mjtGeom.mjGEOM_PLANE
+        geom.material = FLOOR_MATERIAL if is_floor else WOOD_MATERIAL
+        geom.rgba = NOT_A_COLOR
+        geom.castshadow = not is_floor
+    visual = spec.visual
+    spec.stat.extent = robot_size
+    visual.map.znear, visual.map.zfar = 0.02, 60.0
+    visual.map.fogstart, visual.map.fogend = FOG_START_SIZES, FOG_END_SIZES
+    visual.map.shadowscale = 0.5
+    visual.rgba.fog = visual.rgba.haze = HORIZON_RGBA
+    visual.quality.shadowsize, visual.quality.offsamples = shadow_pixels, samples
+    visual.global_.offheight, visual.global_.offwidth = frame_shape
+
+
+def key_light_position(target: Array, robot_size: float) -> Array:
+    """Return where the shadow-casting light stands when the robot is at ``target``, (3,) in [m]."""
+    return np.asarray(target + robot_size * KEY_LIGHT_OFFSET_SIZES)
+
+
+def move_key_light(scene: Any, target: Array, robot_size: float) -> None:
+    """Let the spot light of ``scene``, an ``MjvScene``, follow the robot."""
+    for light in scene.lights[: scene.nlight]:
+        if light.type == mujoco.mjtLightType.mjLIGHT_SPOT:
+            light.pos = key_light_position(target, robot_size)
+            light.dir = -KEY_LIGHT_OFFSET_SIZES / np.linalg.norm(KEY_LIGHT_OFFSET_SIZES)
+
+
+def _set_lights(spec: Any, robot_size: float) -> None:
+    for light in list(spec.lights):
+        spec.delete(light)
+    head = spec.visual.headlight
+    head.active, head.ambient, head.diffuse, head.specular = 1, (0.34,) * 3, (0.22,) * 3, (0.0,) * 3
+    spec.worldbody.add_light(
+        name="fill",
+        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+        dir=FILL_LIGHT_DIRECTION,
+        ambient=(0.0,) * 3,
+        diffuse=(0.24,) * 3,
+        specular=(0.0,) * 3,
+        castshadow=False,
+    )
+    spec.worldbody.add_light(
+        name="key",
+        type=mujoco.mjtLightType.mjLIGHT_SPOT,
+        pos=key_light_position(np.zeros(3), robot_size),
+        dir=-KEY_LIGHT_OFFSET_SIZES,
+        cutoff=50.0,
+        exponent=0.0,
+        attenuation=(1.0, 0.0, 0.0),
+        ambient=(0.0,) * 3,
+        diffuse=(0.40,) * 3,
+        specular=(0.35,) * 3,
+        castshadow=True,
+    )
+
+
+def _add_surfaces(spec: Any, robot_size: float) -> None:
+    builtin, kind = mujoco.mjtBuiltin, mujoco.mjtTexture
+    for texture in list(spec.textures):
+        if texture.type == kind.mjTEXTURE_SKYBOX:
+            spec.delete(texture)
+    spec.add_texture(
+        name="sky",
+        type=kind.mjTEXTURE_SKYBOX,
+        builtin=builtin.mjBUILTIN_GRADIENT,
+        rgb1=HORIZON_RGBA[:3],
+        rgb2=ZENITH_RGB,
+        width=64,
+        height=384,
+    )
+    spec.add_texture(
+        name="tiles",
+        type=kind.mjTEXTURE_2D,
+        builtin=builtin.mjBUILTIN_CHECKER,
+        mark=mujoco.mjtMark.mjMARK_EDGE,
+        rgb1=(0.925, 0.93, 0.935),
+        rgb2=(0.875, 0.885, 0.895),
+        markrgb=(0.77, 0.78, 0.80),
+        width=256,
+        height=256,
+    )
+    spec.add_texture(
+        name="wood",
+        type=kind.mjTEXTURE_CUBE,
+        builtin=builtin.mjBUILTIN_GRADIENT,
+        rgb1=WOOD_LIGHT_RGB,
+        rgb2=WOOD_DARK_RGB,
+        width=64,
+        height=384,
+    )
+    floor = spec.add_material(name=FLOOR_MATERIAL, texuniform=True, texrepeat=(2.0, 2.0), specular=0.0)
+    wood = spec.add_material(name=WOOD_MATERIAL, specular=0.1, shininess=0.1)
+    floor.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "tiles"
+    wood.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "wood"

@@ -1,0 +1,69 @@
+"""From YAML files and command-line overrides to a validated trial; nothing else in quadlab sees omegaconf."""
+
+from collections.abc import Sequence
+from typing import Any, TypeVar
+
+from hydra import compose, initialize_config_dir
+from hydra.errors import HydraException
+from omegaconf import DictConfig, OmegaConf
+from omegaconf.errors import OmegaConfBaseException
+from pydantic import ValidationError
+
+from quadlab.configuration import StrictModel
+from quadlab.errors import ConfigurationError
+from quadlab.paths import CONF_DIR
+from quadlab.trials.config import RunOptions, TrialConfig
+from quadlab.trials.override_problems import composition_problem
+from quadlab.trials.problems import validation_problems
+
+ROOT_NAME = "trial"
+ComposeErrors = (HydraException, OmegaConfBaseException, ValueError)
+"""What Hydra raises for wrong overrides."""
+
+_Model = TypeVar("_Model", bound=StrictModel)
+
+
+def compose_trial(overrides: Sequence[str] = ()) -> TrialConfig:
+    """Return the trial that the command line with these overrides would run.
+
+    Args:
+        overrides: as on the command line, e.g. ``["gait=walk", "duration_s=12"]``.
+
+    Raises:
+        ConfigurationError: if an override or a value is wrong.
+    """
+    return split_document(compose_document(overrides))[0]
+
+
+def compose_document(overrides: Sequence[str] = ()) -> DictConfig:
+    """Return the composed YAML, not validated.
+
+    Raises:
+        ConfigurationError: if an override names something that does not exist.
+    """
+    try:
+        with initialize_config_dir(version_base="1.3", config_dir=str(CONF_DIR)):
+            return compose(ROOT_NAME, overrides=list(overrides))
+    except ComposeErrors as error:
+        raise ConfigurationError(composition_problem(error)) from error
+
+
+def split_document(document: DictConfig) -> tuple[TrialConfig, RunOptions]:
+    """Return what a composed document says: the trial, and how to run it.
+
+    Raises:
+        ConfigurationError: with one line for each mistake.
+    """
+    try:
+        values: Any = OmegaConf.to_container(document, resolve=True, throw_on_missing=True)
+    except OmegaConfBaseException as error:
+        raise ConfigurationError(composition_problem(error)) from error
+    options = {key: values.pop(key) for key in RunOptions.model_fields if key in values}
+    return _validated(TrialConfig, values), _validated(RunOptions, options)
+
+
+def _validated(model: type[_Model], values: dict[str, Any]) -> _Model:
+    try:
+        return model.model_validate(values)
+    except ValidationError as error:
+        raise ConfigurationError("\n".join(validation_problems(model, error))) from error

@@ -1,0 +1,94 @@
+"""One trial from its configuration to the files beside it; used by the command line and by scripts alike."""
+
+import sys
+import traceback
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+
+import yaml
+from threadpoolctl import threadpool_limits
+
+from quadlab.errors import QuadlabError
+from quadlab.trials.config import RunOptions, TrialConfig
+from quadlab.trials.files import write_json, write_text
+from quadlab.trials.identity import trial_id
+from quadlab.trials.manifest import MANIFEST_FILE, collect_manifest
+from quadlab.trials.progress import TrialProgress
+from quadlab.trials.result import RESULT_FILE, TrialResult, read_result, write_result
+from quadlab.trials.runner import run_trial
+
+CONFIG_FILE = "config.yaml"
+ERROR_FILE = "error.json"
+
+
+@dataclass(frozen=True)
+class JobOutcome:
+    """What came of a job.
+
+    Attributes:
+        directory: where the trial's files are.
+        result: of the trial; None if the program failed, see ``failure``.
+        skipped: whether the result was there before.
+        failure: one line about the exception, None if there was none.
+    """
+
+    directory: Path
+    result: TrialResult | None
+    skipped: bool = False
+    failure: str | None = None
+
+
+class ErrorRecord:
+    """A context in which an unexpected exception becomes ``error.json`` instead of ending the program.
+
+    This is the border of one trial: a sweep goes on with the next one. Mistakes of the user (QuadlabError) and
+    interrupts pass through.
+
+    Attributes:
+        failure: one line about the exception that was recorded.
+    """
+
+    def __init__(self, directory: Path) -> None:
+        self.failure: str | None = None
+        self._path = directory / ERROR_FILE
+
+    def __enter__(self) -> "ErrorRecord":
+        self._path.unlink(missing_ok=True)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> bool:
+        if not isinstance(error, Exception) or isinstance(error, QuadlabError):
+            return False
+        self.failure = f"{type(error).__name__}: {error} (traceback in {self._path})"
+        lines = traceback.format_exception(kind, error, trace)
+        content = {"type": type(error).__name__, "message": str(error), "traceback": lines, "argv": sys.argv}
+        write_json(self._path, content)
+        return True
+
+
+def trial_directory(config: TrialConfig, options: RunOptions) -> Path:
+    """Return ``<results_dir>/<tag>/<trial_id>``."""
+    return Path(options.results_dir) / config.tag / trial_id(config)
+
+
+def run_job(config: TrialConfig, options: RunOptions, progress: TrialProgress) -> JobOutcome:
+    """Run the trial, unless its result is there and ``force`` is not set, and leave its files in its directory.
+
+    Raises:
+        QuadlabError: if the configuration names something that does not exist.
+    """
+    directory = trial_directory(config, options)
+    if not options.force and (directory / RESULT_FILE).is_file():
+        return JobOutcome(directory, read_result(directory), skipped=True)
+    directory.mkdir(parents=True, exist_ok=True)
+    (directory / RESULT_FILE).unlink(missing_ok=True)
+    write_text(directory / CONFIG_FILE, yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False))
+    result = None
+    with ErrorRecord(directory) as record, threadpool_limits(1):
+        write_json(directory / MANIFEST_FILE, collect_manifest(config))
+        result = run_trial(config, directory, progress)
+        write_result(directory, result)
+    return JobOutcome(directory, result, failure=record.failure)

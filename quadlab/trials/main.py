@@ -1,0 +1,84 @@
+"""The Hydra entry point: overrides to one trial or a sweep, mistakes to one line, outcomes to exit codes.
+
+Exit codes: 0 the trial ran, whatever its outcome; 1 the program failed; 2 the configuration is wrong.
+Everything heavy is imported inside the job, so that ``--help`` and ``--cfg job`` answer at once.
+"""
+
+import os
+import sys
+from collections.abc import Sequence
+
+import hydra
+from hydra.core.hydra_config import HydraConfig
+from hydra.errors import HydraException
+from hydra.types import RunMode
+from omegaconf import DictConfig
+from omegaconf.errors import OmegaConfBaseException
+
+from quadlab.errors import QuadlabError
+from quadlab.paths import CONF_DIR
+from quadlab.trials.override_problems import composition_problem
+
+EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
+
+
+class JobFailedError(Exception):
+    """Tells a sweep's launcher, which may sit in another process, that a job ended with a non-zero code."""
+
+    def __init__(self, exit_code: int) -> None:
+        super().__init__(exit_code)
+        self.exit_code = exit_code
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run what the arguments say and return the exit code.
+
+    Args:
+        arguments: overrides and Hydra's flags; those of the process by default.
+    """
+    if arguments is not None:
+        sys.argv = [sys.argv[0], *arguments]
+    os.environ.setdefault("HYDRA_FULL_ERROR", "1")  # exceptions come here instead of being printed by Hydra
+    codes: list[int] = []
+
+    @hydra.main(version_base="1.3", config_path=str(CONF_DIR), config_name="trial")
+    def task(document: DictConfig) -> None:
+        codes.append(run_document(document))
+        if codes[-1] != EXIT_OK and HydraConfig.get().mode == RunMode.MULTIRUN:
+            raise JobFailedError(codes[-1])
+
+    try:
+        task()
+    except JobFailedError as error:
+        return error.exit_code
+    except KeyboardInterrupt:
+        _complain("interrupted")
+        return EXIT_INTERRUPTED
+    except (HydraException, OmegaConfBaseException, ValueError) as error:
+        _complain(composition_problem(error))
+        return EXIT_USAGE
+    return max(codes, default=EXIT_OK)
+
+
+def run_document(document: DictConfig) -> int:
+    """Validate and run one composed configuration, print what came of it and return the exit code."""
+    from quadlab.trials.compose import split_document  # noqa: PLC0415
+    from quadlab.trials.job import run_job  # noqa: PLC0415
+    from quadlab.trials.progress import terminal_progress  # noqa: PLC0415
+    from quadlab.trials.report import job_report  # noqa: PLC0415
+
+    try:
+        outcome = run_job(*split_document(document), terminal_progress())
+    except QuadlabError as error:
+        _complain(str(error))
+        return EXIT_USAGE
+    if outcome.failure:
+        _complain(outcome.failure)
+        return EXIT_FAILED
+    sys.stdout.write(job_report(outcome))
+    return EXIT_OK
+
+
+def _complain(problem: str) -> None:
+    for line in problem.splitlines():
+        sys.stderr.write(f"quadlab: {line}\n")

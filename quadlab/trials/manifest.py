@@ -1,0 +1,121 @@
+"""Provenance of a trial: which code, which packages, which machine, which seed, which robot model."""
+
+import hashlib
+import os
+import platform
+import subprocess
+import sys
+from datetime import UTC, datetime
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from threadpoolctl import threadpool_info
+
+from quadlab import __version__
+from quadlab.paths import CONF_DIR, checkout_dir
+from quadlab.robots.description import load_urdf_text
+from quadlab.trials.config import TrialConfig
+from quadlab.trials.identity import trial_id
+
+MANIFEST_FILE = "manifest.json"
+MANIFEST_SCHEMA_VERSION = 1
+
+_BLAS_FIELDS = ("internal_api", "version", "num_threads", "architecture", "threading_layer", "prefix")
+_CPU_FLAGS = frozenset({"sse4_2", "avx", "avx2", "fma", "avx512f", "avx512_vnni"})
+"""Instruction sets that change the order of floating-point sums."""
+_ENVIRONMENT = ("MUJOCO_GL", "PYTHONHASHSEED", "OPENBLAS_CORETYPE", "MKL_CBWR")
+
+
+def collect_manifest(config: TrialConfig) -> dict[str, Any]:
+    """Return everything but the configuration that a trial's numbers depend on, ready for JSON.
+
+    Call it where the trial runs: BLAS threads are those of this moment.
+    """
+    return {
+        "schema_version": MANIFEST_SCHEMA_VERSION,
+        "trial_id": trial_id(config),
+        "written_at": datetime.now(UTC).isoformat(timespec="seconds"),
+        "quadlab_version": __version__,
+        "git": git_state(checkout_dir()),
+        "lock_sha256": lock_hash(checkout_dir()),
+        "model_sha256": sha256(load_urdf_text(config.robot).encode()),
+        "seeds": {"trial": config.seed},
+        "argv": sys.argv,
+        "python": sys.version,
+        "platform": platform.platform(),
+        "libc": " ".join(platform.libc_ver()),
+        "cpu": processor(),
+        "blas": [{key: library.get(key) for key in _BLAS_FIELDS} for library in threadpool_info()],
+        "environment": thread_environment(),
+        "packages": installed_packages(),
+    }
+
+
+def sha256(content: bytes) -> str:
+    """Return the SHA-256 of ``content`` in hexadecimal."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def git_state(root: Path | None) -> dict[str, Any] | None:
+    """Return commit, whether the tree differs from it, hash of the difference and untracked files.
+
+    Args:
+        root: a source tree, or None for an installed wheel.
+
+    Returns:
+        None where there is no repository (a wheel, an unpacked archive) or no git.
+    """
+    head = _git(root, "rev-parse", "HEAD")
+    if head is None:
+        return None
+    difference = _git(root, "diff", "HEAD", "--binary") or b""
+    status = (_git(root, "status", "--porcelain=v1") or b"").decode()
+    return {
+        "commit": head.decode().strip(),
+        "dirty": bool(status.strip()),
+        "diff_sha256": sha256(difference) if difference else None,
+        "untracked": [line[3:] for line in status.splitlines() if line.startswith("??")],
+    }
+
+
+def _git(root: Path | None, *arguments: str) -> bytes | None:
+    if root is None or not (root / ".git").exists():
+        return None
+    try:
+        return subprocess.run(["git", *arguments], cwd=root, capture_output=True, check=True).stdout
+    except (FileNotFoundError, subprocess.CalledProcessError):
+        return None
+
+
+def lock_hash(root: Path | None) -> str | None:
+    """Return the hash of ``uv.lock``, or None in an installed wheel."""
+    lock = (root or CONF_DIR) / "uv.lock"
+    return sha256(lock.read_bytes()) if lock.is_file() else None
+
+
+def processor() -> dict[str, Any]:
+    """Return model, instruction sets that matter for rounding, and number of usable cores."""
+    info = Path("/proc/cpuinfo")
+    lines = info.read_text().splitlines() if info.is_file() else []
+    fields = dict(_pair(line) for line in lines)
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    flags = _CPU_FLAGS & set(fields.get("flags", "").split())
+    return {"model": fields.get("model name", platform.processor()), "flags": sorted(flags), "cores": cores}
+
+
+def _pair(line: str) -> tuple[str, str]:
+    key, _, value = line.partition(":")
+    return key.strip(), value.strip()
+
+
+def thread_environment() -> dict[str, str]:
+    """Return the environment variables that set threads and other sources of difference."""
+    names = [name for name in os.environ if name.endswith("_NUM_THREADS") or name in _ENVIRONMENT]
+    return {name: os.environ[name] for name in sorted(names)}
+
+
+def installed_packages() -> dict[str, str]:
+    """Return the version of every installed distribution, by name."""
+    found = {distribution.name: distribution.version for distribution in metadata.distributions()}
+    return dict(sorted(found.items(), key=lambda item: item[0].lower()))

@@ -1,0 +1,43 @@
+"""Mistakes that Hydra finds while it composes the configuration, in one line each."""
+
+from collections.abc import Mapping
+
+from hydra.errors import MissingConfigException, OverrideParseException
+from omegaconf.errors import OmegaConfBaseException
+
+from quadlab.trials.problems import suggestion
+
+
+def composition_problem(error: Exception) -> str:
+    """Return one line that says what is wrong with an override or a YAML file, and what exists.
+
+    Args:
+        error: what Hydra or OmegaConf raised while composing.
+    """
+    if isinstance(error, MissingConfigException) and error.missing_cfg_file:
+        return _unknown_option(error)
+    if isinstance(error, OverrideParseException):
+        return f"{error.override}: cannot be read as key=value ({_first_line(error.message)})"
+    if isinstance(error.__cause__, OmegaConfBaseException):
+        return _unknown_key(error.__cause__) or _first_line(error)
+    return _first_line(error)
+
+
+def _unknown_option(error: MissingConfigException) -> str:
+    """Return the line for ``group=option`` where the option or the whole group does not exist."""
+    group, _, option = str(error.missing_cfg_file).rpartition("/")
+    if error.options is None:
+        return f"{error.missing_cfg_file}: no such configuration file"
+    return f"{group}: unknown '{option}'; {suggestion(option, error.options)}"
+
+
+def _unknown_key(cause: OmegaConfBaseException) -> str | None:
+    """Return the line for ``key=value`` where the key does not exist."""
+    if not isinstance(cause.parent_node, Mapping) or cause.full_key is None:
+        return None
+    known = [str(key) for key in cause.parent_node if key != "hydra"]
+    return f"{cause.full_key}: unknown key; {suggestion(str(cause.key), known)}"
+
+
+def _first_line(problem: object) -> str:
+    return next(iter(str(problem).splitlines()), type(problem).__name__).strip()

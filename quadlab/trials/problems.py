@@ -1,0 +1,102 @@
+"""What is wrong with a configuration, in lines that a person can act on."""
+
+import difflib
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+
+from quadlab.trials.parts import PartOf
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """Return "did you mean 'x'?; known: a, b, x" for a name that is not one of ``known``."""
+    options = sorted(known)
+    near = difflib.get_close_matches(name, options, 1)
+    hint = f"did you mean '{near[0]}'?; " if near else ""
+    return f"{hint}known: {', '.join(options) or 'none'}"
+
+
+def validation_problems(model: type[BaseModel], error: ValidationError) -> list[str]:
+    """Return one line for each mistake that ``model`` found: key, what is wrong, what was given, what exists."""
+    return [_problem(model, details) for details in error.errors(include_url=False)]
+
+
+def _problem(model: type[BaseModel], details: Mapping[str, Any]) -> str:
+    path, parent = _follow(model, details["loc"])
+    given = details["input"]
+    match details["type"]:
+        case "extra_forbidden":
+            return f"{path}: unknown key; {suggestion(str(details['loc'][-1]), _keys(parent))}"
+        case "missing":
+            return f"{path}: missing"
+        case "union_tag_invalid":
+            kinds = [kind.strip(" '") for kind in details["ctx"]["expected_tags"].split(",")]
+            return f"{path}.kind: unknown '{details['ctx']['tag']}'; {suggestion(details['ctx']['tag'], kinds)}"
+        case "union_tag_not_found":
+            return f"{path}.kind: missing"
+    message = details["msg"].removeprefix("Value error, ")
+    shown = "" if isinstance(given, dict | BaseModel) else f" (got {given!r})"
+    return f"{path}: {message[0].lower()}{message[1:]}{shown}"
+
+
+def _follow(model: type[BaseModel], location: tuple[int | str, ...]) -> tuple[str, Any]:
+    """Return the key as written in YAML, without pydantic's union tags, and the type that holds its last part."""
+    path, parent, here = "", model, model
+    for step in location:
+        if _is_tag(here, step):
+            here = _choice(here, step)
+            continue
+        path += f"[{step}]" if isinstance(step, int) else f".{step}"
+        parent, here = here, _child(here, step)
+    return path.removeprefix("."), parent
+
+
+def _fields(kind: Any) -> Mapping[str, Any]:
+    return kind.model_fields if isinstance(kind, type) and issubclass(kind, BaseModel) else {}
+
+
+def _keys(kind: Any) -> Iterable[str]:
+    return _fields(kind).keys()
+
+
+def _child(parent: Any, step: int | str) -> Any:
+    """Return the type below ``parent``, or None where types end."""
+    if field := _fields(parent).get(str(step)):
+        return next((note for note in field.metadata if isinstance(note, PartOf)), _bare(field.annotation))
+    if get_origin(parent) in (tuple, list):
+        return _bare(get_args(parent)[0])
+    if get_origin(parent) is dict:
+        return _bare(get_args(parent)[1])
+    return None
+
+
+def _bare(annotation: Any) -> Any:
+    """Return the annotation without Annotated and without ``| None``."""
+    if hasattr(annotation, "__metadata__"):
+        return _bare(annotation.__origin__)
+    members = [member for member in _members(annotation) if member is not type(None)]
+    return _bare(members[0]) if len(members) == 1 else annotation
+
+
+def _members(annotation: Any) -> tuple[Any, ...]:
+    is_union = get_origin(annotation) is Union or type(annotation).__name__ == "UnionType"
+    return get_args(annotation) if is_union else ()
+
+
+def _choices(union: Any) -> Iterator[tuple[str, Any]]:
+    """Yield (tag, model) of a union that is told apart by ``kind``."""
+    if isinstance(union, PartOf):
+        yield from union.models().items()
+    for member in map(_bare, _members(union)):
+        kind = _fields(member).get("kind")
+        if kind is not None and get_origin(kind.annotation) is Literal:
+            yield from ((tag, member) for tag in get_args(kind.annotation))
+
+
+def _is_tag(union: Any, step: int | str) -> bool:
+    return any(step == tag for tag, _ in _choices(union))
+
+
+def _choice(union: Any, step: int | str) -> Any:
+    return dict(_choices(union))[str(step)]

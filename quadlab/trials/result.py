@@ -1,0 +1,116 @@
+"""The outcome of a trial as one flat, typed row."""
+
+import json
+from enum import StrEnum
+from pathlib import Path
+from typing import Literal
+
+from pydantic import ValidationError
+
+from quadlab.configuration import Fraction, NonNegative, StrictModel
+from quadlab.errors import LogError
+from quadlab.trials.files import write_json
+
+RESULT_FILE = "result.json"
+SCHEMA_VERSION = 1
+
+
+class TrialStatus(StrEnum):
+    """How a trial ended; every one of them is a row in the table."""
+
+    COMPLETED = "completed"
+    FELL = "fell"
+    NO_PROGRESS = "no_progress"
+    """Upright to the end, but not where the plan went."""
+    DIVERGED = "diverged"
+    """The physics produced numbers that are not finite."""
+    PLANNING_FAILED = "planning_failed"
+    ERROR = "error"
+    """The program raised; ``error.json`` holds the traceback."""
+
+
+class TrialResult(StrictModel):
+    """What one trial amounts to; a metric that does not exist (no motion, no plan) is null.
+
+    Attributes:
+        schema_version: version of this list of fields.
+        trial_id: see ``identity.trial_id``.
+        status, status_reason: how it ended and one line why.
+        robot, gait, planner, controller, estimator, scenario: names or kinds of the parts.
+        seed: of the trial.
+        duration_s: of the motion that was asked for, in [s].
+        survived_s: until the fall or the end, in [s].
+        distance_m: horizontal distance of the base from start to end, in [m].
+        mean_speed_mps: distance over survived time in [m/s].
+        com_error_rms_mm, com_error_max_mm: horizontal distance of the CoM from its aligned reference, in [mm].
+        base_height_rms_mm: error of the base height, in [mm].
+        roll_pitch_rms_deg: error of roll and pitch together, in [deg].
+        foot_slip_max_mm: farthest that a standing foot slid in one stance, in [mm].
+        torque_max_nm: largest joint torque in [N m].
+        torque_limit_share: share of control ticks in which a torque was at its limit.
+        cost_of_transport: mechanical energy over weight times distance.
+        planning_build_ms, planning_solve_ms: wall time in [ms].
+        planning_iterations: of the planner's solver.
+        control_tick_median_us, control_tick_p99_us: computing time of a control tick in [us].
+        control_fallbacks: ticks in which the controller's solver failed and the fallback was used.
+        real_time_factor: simulated over wall time of the whole loop.
+        state_sha256: hash of the final state, equal for two runs exactly if they are identical.
+    """
+
+    schema_version: Literal[1] = SCHEMA_VERSION
+    trial_id: str
+    status: TrialStatus
+    status_reason: str
+    robot: str
+    gait: str
+    planner: str
+    controller: str
+    estimator: str
+    scenario: str
+    seed: int
+    duration_s: NonNegative
+    survived_s: NonNegative | None = None
+    distance_m: float | None = None
+    mean_speed_mps: float | None = None
+    com_error_rms_mm: NonNegative | None = None
+    com_error_max_mm: NonNegative | None = None
+    base_height_rms_mm: NonNegative | None = None
+    roll_pitch_rms_deg: NonNegative | None = None
+    foot_slip_max_mm: NonNegative | None = None
+    torque_max_nm: NonNegative | None = None
+    torque_limit_share: Fraction | None = None
+    cost_of_transport: float | None = None
+    planning_build_ms: NonNegative | None = None
+    planning_solve_ms: NonNegative | None = None
+    planning_iterations: int | None = None
+    control_tick_median_us: NonNegative | None = None
+    control_tick_p99_us: NonNegative | None = None
+    control_fallbacks: int | None = None
+    real_time_factor: NonNegative | None = None
+    state_sha256: str | None = None
+
+
+def write_result(directory: Path, result: TrialResult) -> Path:
+    """Write ``result.json`` into ``directory`` in one step and return its path."""
+    path = directory / RESULT_FILE
+    write_json(path, result.model_dump(mode="json"))
+    return path
+
+
+def read_result(directory: Path) -> TrialResult:
+    """Return the result that a finished trial left in ``directory``.
+
+    Raises:
+        LogError: if there is none, or if it is not one that this version understands.
+    """
+    path = directory / RESULT_FILE
+    if not path.is_file():
+        raise LogError(f"{path}: not found; a trial writes it when it has finished")
+    try:
+        return TrialResult.model_validate(json.loads(path.read_text(encoding="utf-8")))
+    except json.JSONDecodeError as error:
+        raise LogError(f"{path}: not JSON ({error})") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        key = ".".join(map(str, first["loc"]))
+        raise LogError(f"{path}: not a result of schema {SCHEMA_VERSION} ({key}: {first['msg']})") from error
