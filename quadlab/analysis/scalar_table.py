@@ -38,7 +38,7 @@ def scalar_table(schema: Schema, times_ns: Sequence[int], messages: Sequence[byt
     return pd.DataFrame(columns, index=time_index(times_ns))
 
 
-def time_index(times_ns: Sequence[int]) -> pd.Index[float]:
+def time_index(times_ns: Sequence[int]) -> "pd.Index[float]":
     """Return ``times_ns`` in [ns] as an index in [s]."""
     return pd.Index(np.array(times_ns, np.int64) / NANOSECONDS, name=TIME_INDEX, dtype=float)
 

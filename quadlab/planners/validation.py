@@ -3,7 +3,7 @@
 import numpy as np
 
 from quadlab.errors import PlanningProblemError
-from quadlab.gaits.schedule import ContactSchedule
+from quadlab.gaits.schedule import BoolArray, ContactSchedule
 from quadlab.geometry.rotations import Array
 from quadlab.planners.problem import PlanningModel, PlanningProblem, PlanStart, Waypoints
 from quadlab.robots.legs import LEG_COUNT, LEGS
@@ -48,7 +48,7 @@ def farthest_travel(schedule: ContactSchedule, model: PlanningModel, turn_rad: f
     return stances * 2.0 * float(np.linalg.norm(model.reach)) + arm * abs(turn_rad)
 
 
-def _stance_length(contacts: Array) -> int:
+def _stance_length(contacts: BoolArray) -> int:
     """Return how many phases, counted from the first, a leg stays on the ground."""
     lifts = np.flatnonzero(~contacts)
     return int(lifts[0]) if len(lifts) else len(contacts)

@@ -1,6 +1,7 @@
 """Simple shapes of trunk and legs, so that a falling robot lands on the ground instead of sinking into it."""
 
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping
 from typing import Any
 
 import mujoco
@@ -8,6 +9,7 @@ import numpy as np
 import pinocchio as pin
 
 from quadlab.geometry.rotations import Array, matrix_to_quat
+from quadlab.robots.legs import JOINTS_PER_LEG
 from quadlab.robots.model import RobotModel
 from quadlab.robots.pinocchio_model import foot_links_in_urdf
 
@@ -19,25 +21,51 @@ COLLISION_GROUP = 3
 """Geom group of these shapes; hidden by default in viewers."""
 
 _SMALLEST_SHAPE = 0.01  # [m], leaves out the millimetre cubes that mark cameras and sensors
+_LEG_THICKNESS = 0.8  # radius of substitute legs over that of the foot: the foot touches level ground first
 
 
-def add_collision_shapes(spec: Any, robot: RobotModel) -> None:
-    """Add the URDF's primitive collision shapes, and substitutes where it has only meshes."""
+def add_collision_shapes(spec: Any, robot: RobotModel, carriers: Mapping[str, str]) -> None:
+    """Add the URDF's primitive collision shapes, and substitutes where it has only meshes.
+
+    Args:
+        spec: ``mujoco.MjSpec`` with the robot's links as bodies.
+        robot: the robot.
+        carriers: for every link, the link that it moves with, see ``link_placements``.
+    """
     feet = set(foot_links_in_urdf(robot.config))
+    covered = set()
     for link in ET.fromstring(robot.urdf_text).findall("link"):
+        name = link.get("name", "")
         for element in link.findall("collision"):
-            name = link.get("name", "")
-            if not (name in feet and element.find("geometry/sphere") is not None):
-                _add_primitive(spec.body(name), element)
+            is_foot = name in feet and element.find("geometry/sphere") is not None
+            if not is_foot and _add_primitive(spec.body(name), element):
+                covered.add(carriers[name])
     if robot.config.base_box_m is not None:
         half_size = 0.5 * np.array(robot.config.base_box_m)
         _add_shape(spec.body(robot.config.base_link), mujoco.mjtGeom.mjGEOM_BOX, half_size)
+    _add_missing_legs(spec, robot, covered)
 
 
-def _add_primitive(body: Any, element: ET.Element) -> None:
+def _add_missing_legs(spec: Any, robot: RobotModel, covered: set[str]) -> None:
+    """Add a capsule along every thigh and shank that has no shape of its own."""
+    model = robot.pin_model
+    for leg, foot in enumerate(foot_links_in_urdf(robot.config)):
+        thigh, knee = robot.joint_names[JOINTS_PER_LEG * leg + 1 : JOINTS_PER_LEG * (leg + 1)]
+        knee_in_thigh = model.jointPlacements[model.getJointId(knee)].translation
+        foot_in_shank = model.frames[model.getFrameId(f"{foot}_center")].placement.translation
+        for joint, end in ((thigh, knee_in_thigh), (knee, foot_in_shank)):
+            body = spec.joint(joint).parent
+            if body.name not in covered:
+                size = np.array([_LEG_THICKNESS * robot.foot_radius, 0.0, 0.0])
+                ends = np.concatenate([np.zeros(3), end])
+                _add_shape(body, mujoco.mjtGeom.mjGEOM_CAPSULE, size, fromto=ends)
+
+
+def _add_primitive(body: Any, element: ET.Element) -> bool:
+    """Add a collision element of the URDF to ``body``; return whether it is a primitive of relevant size."""
     shape = _shape(element)
     if shape is None or float(np.max(shape[1])) < _SMALLEST_SHAPE:
-        return
+        return False
     origin = element.find("origin")
     position, roll_pitch_yaw = np.zeros(3), np.zeros(3)
     if origin is not None:
@@ -45,6 +73,7 @@ def _add_primitive(body: Any, element: ET.Element) -> None:
         roll_pitch_yaw = _numbers(origin.get("rpy", "0 0 0"))
     quat = matrix_to_quat(pin.rpy.rpyToMatrix(roll_pitch_yaw))
     _add_shape(body, shape[0], shape[1], pos=position, quat=quat)
+    return True
 
 
 def _shape(element: ET.Element) -> tuple[Any, Array] | None:

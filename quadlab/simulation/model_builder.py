@@ -70,7 +70,8 @@ def build_spec(robot: RobotModel, ground: Ground, friction: float, timestep_s: f
     spec = _kinematic_tree(robot)
     _set_options(spec, timestep_s)
     _set_dynamics(spec, robot)
-    add_collision_shapes(spec, robot)
+    carriers = {link: placement.body for link, placement in link_placements(robot).items()}
+    add_collision_shapes(spec, robot, carriers)
     _add_feet(spec, robot)
     _add_motors(spec, robot)
     _add_imu(spec, robot)

@@ -7,7 +7,7 @@ from typing import Annotated, Protocol, Self
 from pydantic import Field, StringConstraints, model_validator
 
 from quadlab.configuration import Positive, StrictModel
-from quadlab.controllers import hierarchical_controller as _hierarchical_controller  # noqa: F401
+from quadlab.controllers import hierarchical as _hierarchical  # noqa: F401
 from quadlab.errors import ConfigurationError
 from quadlab.estimation import truth as _truth  # noqa: F401
 from quadlab.gaits.gait import GaitConfig, stride_counts
@@ -19,6 +19,8 @@ from quadlab.simulation.push import BASE_BODY
 from quadlab.simulation.scenario import ScenarioConfig
 from quadlab.simulation.simulator import SimulationConfig
 from quadlab.simulation.timing import check_period
+from quadlab.trials.failure import FailureConfig
+from quadlab.trials.failure import FailureConfig
 from quadlab.trials.parts import PartOf
 from quadlab.trials.problems import suggestion
 from quadlab.trials.recording.config import LogConfig
@@ -49,7 +51,7 @@ class TrialConfig(StrictModel):
     """One trial, complete: equal configurations give equal trials.
 
     Attributes:
-        robot, gait, command, scenario, simulation, log: see their classes.
+        robot, gait, command, scenario, simulation, log, failure: see their classes.
         planner, controller, estimator: the ``Config`` of the part that is registered under their ``kind``.
         duration_s: length of the motion, standing at both ends included, in [s].
         seed: of everything random.
@@ -64,7 +66,9 @@ class TrialConfig(StrictModel):
     estimator: Annotated[PartConfig, PartOf("estimator")]
     scenario: ScenarioConfig
     simulation: SimulationConfig
+    failure: FailureConfig
     log: LogConfig
+    failure: FailureConfig
     duration_s: Positive
     seed: Annotated[int, Field(ge=0)]
     tag: Tag

@@ -15,7 +15,7 @@ from quadlab.trials.files import write_json, write_text
 from quadlab.trials.identity import trial_id
 from quadlab.trials.manifest import MANIFEST_FILE, collect_manifest
 from quadlab.trials.progress import TrialProgress
-from quadlab.trials.result import RESULT_FILE, TrialResult, read_result, write_result
+from quadlab.trials.result import RESULT_FILE, TrialResult, TrialStatus, read_result, write_result
 from quadlab.trials.runner import run_trial
 
 CONFIG_FILE = "config.yaml"
@@ -91,4 +91,5 @@ def run_job(config: TrialConfig, options: RunOptions, progress: TrialProgress) -
         write_json(directory / MANIFEST_FILE, collect_manifest(config))
         result = run_trial(config, directory, progress)
         write_result(directory, result)
+    progress.finish(TrialStatus.ERROR if result is None else result.status)
     return JobOutcome(directory, result, failure=record.failure)

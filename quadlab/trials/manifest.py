@@ -5,7 +5,6 @@ import os
 import platform
 import subprocess
 import sys
-from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -30,12 +29,12 @@ _ENVIRONMENT = ("MUJOCO_GL", "PYTHONHASHSEED", "OPENBLAS_CORETYPE", "MKL_CBWR")
 def collect_manifest(config: TrialConfig) -> dict[str, Any]:
     """Return everything but the configuration that a trial's numbers depend on, ready for JSON.
 
-    Call it where the trial runs: BLAS threads are those of this moment.
+    Call it where the trial runs: BLAS threads are those of this moment. There is no time of day in it: it is attached
+    to the log, and a rerun gives the same log.
     """
     return {
         "schema_version": MANIFEST_SCHEMA_VERSION,
         "trial_id": trial_id(config),
-        "written_at": datetime.now(UTC).isoformat(timespec="seconds"),
         "quadlab_version": __version__,
         "git": git_state(checkout_dir()),
         "lock_sha256": lock_hash(checkout_dir()),

@@ -23,7 +23,7 @@ class TrialProgress(Protocol):
         ...
 
     def finish(self, status: str) -> None:
-        """End with the outcome; called exactly once after ``start``, also if the trial raised."""
+        """End with the outcome; only the first call after ``start`` does anything."""
         ...
 
 
@@ -71,10 +71,11 @@ class PlainProgress:
         self._stream = stream
         self._name = ""
         self._clock = _Clock(0.0, LINE_INTERVAL_S)
+        self._running = False
 
     def start(self, name: str, duration_s: float) -> None:
         """Print that the trial begins."""
-        self._name, self._clock = name, _Clock(duration_s, LINE_INTERVAL_S)
+        self._name, self._clock, self._running = name, _Clock(duration_s, LINE_INTERVAL_S), True
         self._print("started")
 
     def advance(self, time_s: float, status: str) -> None:
@@ -84,7 +85,9 @@ class PlainProgress:
 
     def finish(self, status: str) -> None:
         """Print the outcome."""
-        self._print(self._clock.text(status))
+        if self._running:
+            self._print(self._clock.text(status))
+        self._running = False
 
     def _print(self, text: str) -> None:
         self._stream.write(f"{self._name}: {text}\n")
@@ -99,12 +102,14 @@ class BarProgress:
         self._progress = Progress(*columns, console=Console(file=stream), auto_refresh=False)
         self._clock = _Clock(0.0, REFRESH_S)
         self._task = TaskID(0)
+        self._running = False
 
     def start(self, name: str, duration_s: float) -> None:
         """Show an empty bar."""
         self._clock = _Clock(duration_s, REFRESH_S)
         self._task = self._progress.add_task(self._clock.text("started"), total=duration_s, name=name)
         self._progress.start()
+        self._running = True
 
     def advance(self, time_s: float, status: str) -> None:
         """Move the bar if it was not moved just now."""
@@ -113,8 +118,10 @@ class BarProgress:
 
     def finish(self, status: str) -> None:
         """Draw the bar a last time and leave it on the screen."""
-        self._draw(status)
-        self._progress.stop()
+        if self._running:
+            self._draw(status)
+            self._progress.stop()
+        self._running = False
 
     def _draw(self, status: str) -> None:
         self._progress.update(self._task, completed=self._clock.time_s, description=self._clock.text(status))

@@ -18,7 +18,7 @@ It ends where no multiplier disagrees: these are the Karush-Kuhn-Tucker conditio
 """
 
 from quadlab.controllers.hierarchy.factorisation import factorise_rows, solve_least_squares, solve_transposed, tail_norm
-from quadlab.controllers.hierarchy.jit import compiled
+from quadlab.controllers.hierarchy.jit import inlined
 from quadlab.controllers.hierarchy.workspace import (
     ELIMINATED,
     EQUALITY,
@@ -39,7 +39,7 @@ WRONG_SIGN = 1e-9  # relative to the largest residual: a multiplier that disagre
 ROUNDING = 1e-12  # relative to the largest bound: rounding error of a multiplier
 
 
-@compiled
+@inlined
 def classify(workspace: Workspace, first: int, last: int) -> bool:
     """Evaluate the rows of a level and give them their roles; return whether there is anything to minimise."""
     tolerance = row_tolerance(workspace.point)
@@ -63,7 +63,7 @@ def classify(workspace: Workspace, first: int, last: int) -> bool:
     return unfinished
 
 
-@compiled
+@inlined
 def factorise_working_set(workspace: Workspace, fixed: int, working_count: int) -> int:
     """Factorise the working set, let go of rows that depend on others of it, and return how many stay."""
     rank = factorise_rows(
@@ -81,7 +81,7 @@ def factorise_working_set(workspace: Workspace, fixed: int, working_count: int) 
     return rank
 
 
-@compiled
+@inlined
 def build_system(workspace: Workspace, first: int, last: int, fixed: int, rank: int) -> int:
     """Write the least-squares problem B z = target of the level in the null space Z; return its number of rows."""
     free = len(workspace.point) - fixed
@@ -102,7 +102,7 @@ def build_system(workspace: Workspace, first: int, last: int, fixed: int, rank: 
     return count
 
 
-@compiled
+@inlined
 def compute_step(workspace: Workspace, first: int, last: int, fixed: int, rank: int) -> float:
     """Compute the shortest step Z z to the minimum of the current quadratic piece; return its length."""
     free = len(workspace.point) - fixed
@@ -127,7 +127,7 @@ def compute_step(workspace: Workspace, first: int, last: int, fixed: int, rank: 
     return tail_norm(workspace.step, 0, free)
 
 
-@compiled
+@inlined
 def find_blocking_row(workspace: Workspace, last: int, fixed: int, length: float) -> tuple[float, int, int]:
     """Return (fraction, row, side): how much of the step is possible, and the row that ends it at which bound.
 
@@ -156,7 +156,7 @@ def find_blocking_row(workspace: Workspace, last: int, fixed: int, length: float
     return fraction, blocking, side
 
 
-@compiled
+@inlined
 def advance(workspace: Workspace, last: int, fixed: int, fraction: float) -> None:
     """Move the point by ``fraction`` of the step."""
     for i in range(len(workspace.point) - fixed):
@@ -166,7 +166,7 @@ def advance(workspace: Workspace, last: int, fixed: int, fraction: float) -> Non
             workspace.values[row] += fraction * workspace.rates[row]
 
 
-@compiled
+@inlined
 def hold(workspace: Workspace, row: int, side: int, working_count: int) -> int:
     """Add ``row`` to the working set at its bound on ``side``; return the new size."""
     workspace.roles[row] = HELD * side
@@ -175,7 +175,7 @@ def hold(workspace: Workspace, row: int, side: int, working_count: int) -> int:
     return working_count + 1
 
 
-@compiled
+@inlined
 def compute_multipliers(workspace: Workspace, first: int, last: int, fixed: int, rank: int) -> None:
     """Solve  G_W^T multipliers = -gradient  with G_W = T Y^T, so  T^T multipliers = -Y^T gradient."""
     free = len(workspace.point) - fixed
@@ -195,7 +195,7 @@ def compute_multipliers(workspace: Workspace, first: int, last: int, fixed: int,
     solve_transposed(workspace.triangle, rank, workspace.multipliers)
 
 
-@compiled
+@inlined
 def gradient_scales(workspace: Workspace, first: int, last: int) -> tuple[float, float]:
     """Return the largest contribution of a row to the gradient, and the same with its bound for the residual."""
     largest_residual, largest_bound = 0.0, 0.0
@@ -207,7 +207,7 @@ def gradient_scales(workspace: Workspace, first: int, last: int) -> tuple[float,
     return largest_residual, largest_bound
 
 
-@compiled
+@inlined
 def find_leaving(workspace: Workspace, first: int, last: int, rank: int, bland: bool) -> int:
     """Return the position in the working set of the row to let go, -1 if every multiplier has the right sign.
 
@@ -231,7 +231,7 @@ def find_leaving(workspace: Workspace, first: int, last: int, rank: int, bland: 
     return leaving
 
 
-@compiled
+@inlined
 def release(workspace: Workspace, first: int, leaving: int, working_count: int) -> int:
     """Let the row at position ``leaving`` go to the side its multiplier points to; return the new size."""
     row = workspace.working[leaving]
@@ -243,7 +243,7 @@ def release(workspace: Workspace, first: int, leaving: int, working_count: int) 
     return working_count - 1
 
 
-@compiled
+@inlined
 def solve_level(
     workspace: Workspace, first: int, last: int, fixed: int, working_count: int, iterations: int
 ) -> tuple[int, int, int]:

@@ -9,12 +9,11 @@ feasible set without interior.
 
 from quadlab.controllers.hierarchy.active_set import gradient_scales
 from quadlab.controllers.hierarchy.factorisation import RANK_TOLERANCE, make_reflector, reflect, tail_norm
-from quadlab.controllers.hierarchy.jit import compiled
+from quadlab.controllers.hierarchy.jit import inlined
 from quadlab.controllers.hierarchy.workspace import (
     ELIMINATED,
     EQUALITY,
     FREE,
-    HELD,
     Workspace,
     bound_of,
     in_objective,
@@ -26,7 +25,7 @@ ROUNDING = 1e-10  # relative to the largest bound: rounding error of such a mult
 VIOLATED = 10.0  # times the row tolerance: a row that misses its bound by less counts as satisfied
 
 
-@compiled
+@inlined
 def select_held_rows(workspace: Workspace, first: int, last: int, working_count: int) -> tuple[int, int]:
     """Move rows of higher levels with a positive multiplier from the working set to the candidates.
 
@@ -50,7 +49,7 @@ def select_held_rows(workspace: Workspace, first: int, last: int, working_count:
     return selected, kept
 
 
-@compiled
+@inlined
 def select_own_rows(workspace: Workspace, first: int, last: int, selected: int) -> int:
     """Add equalities and violated rows of the level to the candidates; return their number.
 
@@ -73,7 +72,7 @@ def select_own_rows(workspace: Workspace, first: int, last: int, selected: int) 
     return selected
 
 
-@compiled
+@inlined
 def take_most_independent(workspace: Workspace, selected: int, fixed: int) -> tuple[int, float]:
     """Return (row, rest): the candidate that keeps the largest share of its norm in the free coordinates, or -1.
 
@@ -97,7 +96,7 @@ def take_most_independent(workspace: Workspace, selected: int, fixed: int) -> tu
     return row, best_rest
 
 
-@compiled
+@inlined
 def eliminate(workspace: Workspace, row: int, rest: float, count: int, fixed: int) -> None:
     """Rotate the free coordinates so that ``row`` depends on the first of them only, which is thereby used up."""
     dimension = len(workspace.point)
@@ -113,7 +112,7 @@ def eliminate(workspace: Workspace, row: int, rest: float, count: int, fixed: in
     reflect(workspace.anchor, reflector, scale, fixed, dimension)
 
 
-@compiled
+@inlined
 def freeze_level(
     workspace: Workspace, first: int, last: int, count: int, fixed: int, working_count: int
 ) -> tuple[int, int]:

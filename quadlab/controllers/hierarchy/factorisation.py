@@ -6,7 +6,7 @@ ones if what is left of it is small compared with the row as it was given, so th
 
 import math
 
-from quadlab.controllers.hierarchy.jit import compiled
+from quadlab.controllers.hierarchy.jit import compiled, inlined
 from quadlab.controllers.hierarchy.level import IndexArray
 from quadlab.geometry.rotations import Array
 
@@ -15,7 +15,7 @@ RANK_TOLERANCE = 1e-8  # of least squares and eliminations
 WORKING_SET_TOLERANCE = 1e-10
 
 
-@compiled
+@inlined
 def tail_norm(vector: Array, begin: int, end: int) -> float:
     """Return the Euclidean norm of ``vector[begin:end]``."""
     square = 0.0
@@ -24,7 +24,7 @@ def tail_norm(vector: Array, begin: int, end: int) -> float:
     return math.sqrt(square)
 
 
-@compiled
+@inlined
 def make_reflector(vector: Array, begin: int, norm: float) -> tuple[float, float]:
     """Overwrite ``vector[begin:]`` with v so that H maps it on pivot * e_begin; return (pivot, scale).
 
@@ -38,7 +38,7 @@ def make_reflector(vector: Array, begin: int, norm: float) -> tuple[float, float
     return pivot, -1.0 / (pivot * vector[begin])
 
 
-@compiled
+@inlined
 def reflect(vector: Array, reflector: Array, scale: float, begin: int, end: int) -> None:
     """Apply H to ``vector[begin:end]`` in place."""
     product = 0.0
@@ -107,7 +107,7 @@ def factorise_rows(
     return rank
 
 
-@compiled
+@inlined
 def solve_transposed(triangle: Array, rank: int, right: Array) -> None:
     """Overwrite ``right`` with the solution of T^T y = right (back substitution)."""
     for i in range(rank - 1, -1, -1):
@@ -117,7 +117,7 @@ def solve_transposed(triangle: Array, rank: int, right: Array) -> None:
         right[i] = total / triangle[i, i]
 
 
-@compiled
+@inlined
 def swap_rows(matrix: Array, first: int, second: int) -> None:
     """Exchange two rows of ``matrix``."""
     for column in range(matrix.shape[1]):
@@ -126,7 +126,7 @@ def swap_rows(matrix: Array, first: int, second: int) -> None:
         matrix[second, column] = entry
 
 
-@compiled
+@inlined
 def most_independent(matrix: Array, norms: Array, begin: int, count: int, columns: int) -> tuple[int, float]:
     """Return (row, rest): the row from ``begin`` on that keeps the largest share of its norm in columns[begin:]."""
     best_row, best_share, best_rest = -1, RANK_TOLERANCE, 0.0
@@ -137,7 +137,7 @@ def most_independent(matrix: Array, norms: Array, begin: int, count: int, column
     return best_row, best_rest
 
 
-@compiled
+@inlined
 def reduce_rows(
     system: Array, norms: Array, target: Array, count: int, columns: int, factor: Array, scales: Array
 ) -> int:
@@ -173,7 +173,7 @@ def reduce_rows(
     return min(count, columns)
 
 
-@compiled
+@inlined
 def triangularise_columns(factor: Array, target: Array, count: int, rank: int) -> None:
     """Reduce L = P R by reflections from the left, so that min ||L y - target|| becomes R y = (P^T target)[:rank].
 

@@ -10,6 +10,7 @@ from quadlab.errors import QuadlabError
 from quadlab.geometry.rotations import Array
 
 IndexArray = NDArray[np.int64]
+SideArray = NDArray[np.int8]
 
 
 class HierarchyError(QuadlabError, ValueError):

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
 
-from quadlab.controllers.hierarchy.level import HierarchyError, Level, stack
+from quadlab.controllers.hierarchy.level import HierarchyError, Level, SideArray, stack
 from quadlab.controllers.hierarchy.stacked import solve_stacked
 from quadlab.geometry.rotations import Array
 
@@ -30,8 +29,8 @@ class HierarchySolution:
     Attributes:
         x: (n,) solution; finite whatever the status.
         residual_norms: per level the norm of its slacks, in the unit of its rows.
-        slacks: per level (m,): matrix @ x - b for equalities; for inequalities by how much the row lies above (positive)
-            or below (negative) its interval, 0 if satisfied.
+        slacks: per level (m,): matrix @ x - b for equalities; for inequalities by how much the row lies above
+            (positive) or below (negative) its interval, 0 if satisfied.
         active: per level (m,) int8: 2 equality, +1 at or above the upper bound, -1 at or below the lower bound, 0
             strictly between.
         iterations: active-set iterations over all levels.
@@ -41,7 +40,7 @@ class HierarchySolution:
     x: Array
     residual_norms: dict[str, float]
     slacks: dict[str, Array]
-    active: dict[str, NDArray[np.int8]]
+    active: dict[str, SideArray]
     iterations: int
     status: HierarchyStatus
 

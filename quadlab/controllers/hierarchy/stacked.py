@@ -6,23 +6,21 @@ from typing import TypeAlias
 
 import numpy as np
 
-from quadlab.controllers.hierarchy.active_set import BREAKDOWN, ITERATION_LIMIT, SOLVED, classify, solve_level
+from quadlab.controllers.hierarchy.active_set import BREAKDOWN, SOLVED, classify, solve_level
 from quadlab.controllers.hierarchy.elimination import freeze_level
 from quadlab.controllers.hierarchy.factorisation import reflect
-from quadlab.controllers.hierarchy.jit import compiled, compiled_entry, source_fingerprint
-from quadlab.controllers.hierarchy.level import IndexArray
+from quadlab.controllers.hierarchy.jit import compiled_entry, inlined, source_fingerprint
+from quadlab.controllers.hierarchy.level import IndexArray, SideArray
 from quadlab.controllers.hierarchy.workspace import Workspace, allocate, row_tolerance
 from quadlab.geometry.rotations import Array
 
-StackedResult: TypeAlias = tuple[Array, Array, IndexArray, int, int]
+StackedResult: TypeAlias = tuple[Array, Array, SideArray, int, int]
 StackedSolver: TypeAlias = Callable[[Array, Array, Array, IndexArray, Array, int], StackedResult]
 
 
-@compiled
-def approach_start(
-    workspace: Workspace, count: int, fixed: int, working_count: int, iterations: int
-) -> tuple[int, int]:
-    """Solve the implicit last level  min ||x - start||  in what freedom is left; return (iterations made, status).
+@inlined
+def append_closest_level(workspace: Workspace, count: int, fixed: int) -> int:
+    """Append the implicit last level  min ||x - start||  and return its number of rows, one per free coordinate.
 
     Rotations keep distances, so that in the free coordinates its rows are unit vectors and its bounds the anchor.
     """
@@ -35,13 +33,10 @@ def approach_start(
         workspace.norms[row] = 1.0
         workspace.lower[row] = workspace.anchor[fixed + offset]
         workspace.upper[row] = workspace.anchor[fixed + offset]
-    last = count + dimension - fixed
-    classify(workspace, count, last)
-    _, made, status = solve_level(workspace, count, last, fixed, working_count, iterations)
-    return made, status
+    return dimension - fixed
 
 
-@compiled
+@inlined
 def rotate_back(workspace: Workspace, fixed: int) -> Array:
     """Return x = Q u."""
     x = workspace.point.copy()
@@ -50,10 +45,10 @@ def rotate_back(workspace: Workspace, fixed: int) -> Array:
     return x
 
 
-@compiled
+@inlined
 def assess_rows(
     matrix: Array, lower: Array, upper: Array, norms: Array, x: Array
-) -> tuple[Array, IndexArray]:
+) -> tuple[Array, SideArray]:
     """Return (slacks, active) of all rows at ``x``, computed from the rows as they were given."""
     slacks = np.zeros(len(lower))
     active = np.zeros(len(lower), np.int8)
@@ -79,24 +74,24 @@ def _compile_solver(fingerprint: int) -> StackedSolver:
     ) -> StackedResult:
         _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
         count, dimension = matrix.shape
+        levels = len(breaks) - 1
         workspace = allocate(matrix, lower, upper, start)
         fixed, working_count, iterations, status = 0, 0, 0, SOLVED
-        for level in range(len(breaks) - 1):
-            first, last = breaks[level], breaks[level + 1]
+        for level in range(levels + 1):
+            if status != SOLVED or fixed == dimension:
+                break
+            if level < levels:
+                first, last = breaks[level], breaks[level + 1]
+            else:
+                first, last = count, count + append_closest_level(workspace, count, fixed)
             if not classify(workspace, first, last):
                 continue
             working_count, made, status = solve_level(
                 workspace, first, last, fixed, working_count, iteration_limit - iterations
             )
             iterations += made
-            if status != SOLVED:
-                break
-            fixed, working_count = freeze_level(workspace, first, last, count, fixed, working_count)
-            if fixed == dimension:
-                break
-        if status == SOLVED and fixed < dimension:
-            made, status = approach_start(workspace, count, fixed, working_count, iteration_limit - iterations)
-            iterations += made
+            if level < levels and status == SOLVED:
+                fixed, working_count = freeze_level(workspace, first, last, count, fixed, working_count)
         x = rotate_back(workspace, fixed)
         if not np.isfinite(x).all():
             x, status = start.copy(), BREAKDOWN

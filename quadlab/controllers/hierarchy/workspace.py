@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quadlab.controllers.hierarchy.jit import compiled
+from quadlab.controllers.hierarchy.jit import compiled, inlined
 from quadlab.controllers.hierarchy.level import IndexArray
 from quadlab.geometry.rotations import Array
 
@@ -115,19 +115,19 @@ def allocate(matrix: Array, lower: Array, upper: Array, start: Array) -> Workspa
     return workspace
 
 
-@compiled
+@inlined
 def bound_of(workspace: Workspace, row: int) -> float:
     """Return the bound that the role of ``row`` refers to."""
     return workspace.upper[row] if workspace.roles[row] > 0 else workspace.lower[row]
 
 
-@compiled
+@inlined
 def in_objective(role: int) -> bool:
     """Return whether the residual of a row with this role is part of the objective."""
     return role in (PULLED, -PULLED, EQUALITY)
 
 
-@compiled
+@inlined
 def row_tolerance(point: Array) -> float:
     """Return by how much a row of norm 1 may miss its bound at ``point`` and still count as satisfied."""
     largest = 0.0

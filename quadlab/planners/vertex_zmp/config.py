@@ -14,6 +14,7 @@ class VertexZmpConfig(StrictModel):
     Attributes:
         polynomial_duration_s: longest polynomial T_k of the CoM spline in [s].
         robustness_weight: weight of J_lambda, Eq. (21), in [1/s].
+        com_acceleration_weight: weight of the squared CoM acceleration over time in [s^3/m^2].
         nominal_foothold_weight: weight of the squared distance of footholds from the nominal stance in [1/m^2].
         waypoint_weight: weight of the squared distance of the CoM from intermediate waypoints in [1/m^2].
         reach_margin_m: how much smaller than the reach of the model the enforced box is, to every side, in [m].
@@ -27,6 +28,7 @@ class VertexZmpConfig(StrictModel):
     kind: Literal["vertex_zmp"]
     polynomial_duration_s: Positive
     robustness_weight: NonNegative
+    com_acceleration_weight: NonNegative
     nominal_foothold_weight: NonNegative
     waypoint_weight: NonNegative
     reach_margin_m: NonNegative

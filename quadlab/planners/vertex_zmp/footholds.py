@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import casadi as ca
 import numpy as np
@@ -65,7 +66,7 @@ class FootholdIndex:
         """
         middles: list[float] = []
         for swings in self.schedule.swings:
-            middles += [0.5 * (a.end_s + b.start_s) for a, b in zip(swings[:-1], swings[1:], strict=True)]
+            middles += [0.5 * (a.end_s + b.start_s) for a, b in pairwise(swings)]
             middles += [self.schedule.duration_s] * bool(swings)
         return np.array(middles)
 

@@ -46,7 +46,7 @@ def _nominal_footholds(problem: PlanningProblem, footholds: FootholdIndex, headi
     """Return the nominal place of each free stance at its middle, (2, M - 4)."""
     yaw = np.array([heading(float(time))[0] for time in footholds.free_middles_s])
     nominal = problem.model.nominal_feet[footholds.free_legs]
-    turned = np.array(
+    turned: Array = np.array(
         [
             np.cos(yaw) * nominal[:, 0] - np.sin(yaw) * nominal[:, 1],
             np.sin(yaw) * nominal[:, 0] + np.cos(yaw) * nominal[:, 1],

@@ -62,9 +62,9 @@ class VertexZmpPlanner:
             return PlanningOutcome(PlanningStatus.INFEASIBLE, too_far, None)
         solution = run_solver(transcription.solver, transcription.transcription)
         violated = {k: v for k, v in solution.residuals.items() if not v <= self._config.residual_tolerance}
-        if violated:
-            status = PlanningStatus.SOLVER_LIMIT if solution.hit_limit else PlanningStatus.INFEASIBLE
-            return PlanningOutcome(status, _residual_reason(solution, violated, self._config.residual_tolerance), None)
+        if violated or not solution.converged:
+            status = PlanningStatus.INFEASIBLE if solution.infeasible else PlanningStatus.SOLVER_LIMIT
+            return PlanningOutcome(status, _failure(solution, violated, self._config.residual_tolerance), None)
         plan = motion_plan(transcription.transcription, solution.x, _report(transcription, solution))
         verdict = check_plan(plan, problem, self._config.checker)
         if not verdict.accepted:
@@ -86,12 +86,13 @@ def _out_of_range(problem: PlanningProblem) -> str | None:
     )
 
 
-def _residual_reason(solution: Solution, violated: dict[str, float], tolerance: float) -> str:
+def _failure(solution: Solution, violated: dict[str, float], tolerance: float) -> str:
+    """Return where Ipopt stopped and which constraint sets it left violated, worst first."""
     worst = sorted(violated.items(), key=lambda item: item[1], reverse=True)
-    sets = ", ".join(f"{name} {value:.2e}" for name, value in worst)
+    sets = ", ".join(f"{name} {value:.2e}" for name, value in worst) or "none"
     return (
         f"Ipopt stopped after {solution.iterations} iterations with {solution.status}; "
-        f"violated (tolerance {tolerance:g}): {sets}"
+        f"constraint sets violated by more than {tolerance:g}: {sets}"
     )
 
 

@@ -11,7 +11,7 @@ from quadlab.geometry.rotations import Array
 from quadlab.planners.vertex_zmp.config import VertexZmpConfig
 from quadlab.planners.vertex_zmp.transcription import Transcription
 
-_LIMITS = ("Maximum_Iterations_Exceeded", "Maximum_WallTime_Exceeded", "Maximum_CpuTime_Exceeded")
+_CONVERGED = ("Solve_Succeeded", "Solved_To_Acceptable_Level")
 
 
 @dataclass(frozen=True)
@@ -35,14 +35,19 @@ class Solution:
     residuals: dict[str, float]
 
     @property
-    def hit_limit(self) -> bool:
-        """Whether Ipopt ran out of iterations or time."""
-        return self.status in _LIMITS
+    def converged(self) -> bool:
+        """Whether Ipopt says that it found an optimum."""
+        return self.status in _CONVERGED
+
+    @property
+    def infeasible(self) -> bool:
+        """Whether Ipopt says that the constraints contradict each other (near its last iterate)."""
+        return self.status == "Infeasible_Problem_Detected"
 
 
 def make_solver(transcription: Transcription, config: VertexZmpConfig) -> Any:
     """Return Ipopt for this program: exact Hessian by automatic differentiation, MUMPS, silent."""
-    options = {
+    options: dict[str, Any] = {
         "print_time": False,
         "calc_lam_p": False,
         "no_nlp_grad": True,
@@ -65,9 +70,7 @@ def run_solver(solver: Any, transcription: Transcription) -> Solution:
     """Solve from the first iterate of the transcription."""
     lower, upper = transcription.bounds_g
     begin = time.perf_counter()
-    answer = solver(
-        x0=transcription.guess, p=transcription.parameters, lbx=transcription.lower_x, lbg=lower, ubg=upper
-    )
+    answer = solver(x0=transcription.guess, p=transcription.parameters, lbx=transcription.lower_x, lbg=lower, ubg=upper)
     solve_ms = 1e3 * (time.perf_counter() - begin)
     x = np.asarray(answer["x"]).ravel()
     stats = solver.stats()

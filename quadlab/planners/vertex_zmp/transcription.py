@@ -17,6 +17,7 @@ from quadlab.planners.vertex_zmp.constraints.lip_dynamics import lip_dynamics
 from quadlab.planners.vertex_zmp.constraints.quartic_spline import com_continuity
 from quadlab.planners.vertex_zmp.constraints.range_of_motion import range_of_motion, range_of_motion_times
 from quadlab.planners.vertex_zmp.constraints.unilateral_load import load_between_nodes, load_sum
+from quadlab.planners.vertex_zmp.costs.com_acceleration import com_acceleration
 from quadlab.planners.vertex_zmp.costs.nominal_foothold import nominal_foothold
 from quadlab.planners.vertex_zmp.costs.robustness import robustness
 from quadlab.planners.vertex_zmp.costs.waypoint import waypoint
@@ -96,6 +97,7 @@ def transcribe(problem: PlanningProblem, config: VertexZmpConfig) -> Transcripti
         constraints=_constraints(symbols, grid, footholds, problem, config),
         costs=[
             robustness(symbols, grid, config.robustness_weight),
+            com_acceleration(symbols, grid, config.com_acceleration_weight),
             nominal_foothold(symbols, grid, footholds, problem.model, config.nominal_foothold_weight),
             waypoint(symbols, grid, waypoint_times, config.waypoint_weight),
         ],

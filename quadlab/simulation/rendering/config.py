@@ -19,7 +19,7 @@ class ViewConfig(StrictModel):
 
     azimuth_deg: float = -50.0
     elevation_deg: Annotated[float, Field(gt=-90.0, lt=90.0)] = 16.0
-    distance_sizes: Positive = 3.1
+    distance_sizes: Positive = 2.4
     smoothing_s: NonNegative = 0.5
 
 

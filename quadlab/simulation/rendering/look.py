@@ -11,12 +11,12 @@ import numpy as np
 
 from quadlab.geometry.rotations import Array
 
-KEY_LIGHT_OFFSET_SIZES = np.array([1.2, -2.0, 6.0])
-FILL_LIGHT_DIRECTION = (-0.3, 0.5, -1.0)
-FOG_START_SIZES, FOG_END_SIZES = 5.0, 16.0
+KEY_LIGHT_OFFSET_SIZES = np.array([-1.4, -3.0, 4.6])
+FILL_LIGHT_DIRECTION = (-0.8, 0.4, -0.8)
+FOG_START_SIZES, FOG_END_SIZES = 4.0, 13.0
 HORIZON_RGBA = (0.93, 0.95, 0.97, 1.0)
 ZENITH_RGB = (0.78, 0.86, 0.94)
-WOOD_LIGHT_RGB, WOOD_DARK_RGB = (0.80, 0.62, 0.42), (0.70, 0.52, 0.33)
+WOOD_LIGHT_RGB, WOOD_DARK_RGB = (0.62, 0.46, 0.30), (0.52, 0.37, 0.23)
 FLOOR_MATERIAL, WOOD_MATERIAL = "floor_surface", "wood_surface"
 NOT_A_COLOR = (1.0, 1.0, 1.0, 1.0)
 
@@ -42,9 +42,9 @@ def apply_look(spec: Any, robot_size: float, shadow_pixels: int, samples: int, f
         geom.castshadow = not is_floor
     visual = spec.visual
     spec.stat.extent = robot_size
-    visual.map.znear, visual.map.zfar = 0.02, 60.0
+    visual.map.znear, visual.map.zfar = 0.3, 30.0
     visual.map.fogstart, visual.map.fogend = FOG_START_SIZES, FOG_END_SIZES
-    visual.map.shadowscale = 0.5
+    visual.map.shadowscale = 0.28
     visual.rgba.fog = visual.rgba.haze = HORIZON_RGBA
     visual.quality.shadowsize, visual.quality.offsamples = shadow_pixels, samples
     visual.global_.offheight, visual.global_.offwidth = frame_shape
@@ -67,13 +67,13 @@ def _set_lights(spec: Any, robot_size: float) -> None:
     for light in list(spec.lights):
         spec.delete(light)
     head = spec.visual.headlight
-    head.active, head.ambient, head.diffuse, head.specular = 1, (0.34,) * 3, (0.22,) * 3, (0.0,) * 3
+    head.active, head.ambient, head.diffuse, head.specular = 1, (0.42,) * 3, (0.30,) * 3, (0.0,) * 3
     spec.worldbody.add_light(
         name="fill",
         type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
         dir=FILL_LIGHT_DIRECTION,
         ambient=(0.0,) * 3,
-        diffuse=(0.24,) * 3,
+        diffuse=(0.30,) * 3,
         specular=(0.0,) * 3,
         castshadow=False,
     )
@@ -82,11 +82,11 @@ def _set_lights(spec: Any, robot_size: float) -> None:
         type=mujoco.mjtLightType.mjLIGHT_SPOT,
         pos=key_light_position(np.zeros(3), robot_size),
         dir=-KEY_LIGHT_OFFSET_SIZES,
-        cutoff=50.0,
+        cutoff=80.0,
         exponent=0.0,
         attenuation=(1.0, 0.0, 0.0),
         ambient=(0.0,) * 3,
-        diffuse=(0.40,) * 3,
+        diffuse=(0.60,) * 3,
         specular=(0.35,) * 3,
         castshadow=True,
     )
@@ -111,9 +111,9 @@ def _add_surfaces(spec: Any, robot_size: float) -> None:
         type=kind.mjTEXTURE_2D,
         builtin=builtin.mjBUILTIN_CHECKER,
         mark=mujoco.mjtMark.mjMARK_EDGE,
-        rgb1=(0.925, 0.93, 0.935),
-        rgb2=(0.875, 0.885, 0.895),
-        markrgb=(0.77, 0.78, 0.80),
+        rgb1=(0.70, 0.705, 0.71),
+        rgb2=(0.655, 0.665, 0.675),
+        markrgb=(0.57, 0.58, 0.60),
         width=256,
         height=256,
     )

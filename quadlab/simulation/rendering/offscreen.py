@@ -58,6 +58,7 @@ class OffscreenRenderer:
         self._options.geomgroup[:] = [1, 1, 1, 0, 0, 0]
         self._options.sitegroup[:] = 0
         self.scene = mujoco.MjvScene(model=model, maxgeom=MAX_GEOMS)
+        self.scene.flags[mujoco.mjtRndFlag.mjRND_FOG.value] = 1
         self._context = create_context(width, height)
         self._context.make_current()
         self._drawing = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100.value)

@@ -82,6 +82,7 @@ CONTROL_BLOCKS = (
     Block("terrain_plane", ("a", "b", "c"), lambda tick: tick.telemetry.terrain_plane),
     Block("foot_position", LEGS_XYZ, lambda tick: tick.telemetry.foot_positions.ravel()),
     Block("foot_position_reference", LEGS_XYZ, lambda tick: tick.telemetry.foot_position_references.ravel()),
+    Block("foot_contact_velocity", LEGS_XYZ, lambda tick: tick.telemetry.foot_contact_velocities.ravel()),
     Block("contact_force_desired", LEGS_XYZ, lambda tick: tick.telemetry.contact_forces_desired.ravel()),
     Block("torque_desired", JOINT_NAMES, lambda tick: tick.telemetry.torques_desired),
     Block("leg_mode", LEGS, lambda tick: tick.telemetry.leg_modes, FieldType.FIXED32),

@@ -1,8 +1,6 @@
 """The robot and its surroundings as scene entities, drawn once and moved by /tf."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any, Literal
 
 import numpy as np
 from foxglove_schemas_protobuf.CubePrimitive_pb2 import CubePrimitive
@@ -13,42 +11,14 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from foxglove_schemas_protobuf.SpherePrimitive_pb2 import SpherePrimitive
 from foxglove_schemas_protobuf.TriangleListPrimitive_pb2 import TriangleListPrimitive
 from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
-from numpy.typing import NDArray
 
 from quadlab.errors import LogError
 from quadlab.geometry.rotations import Array, quat_to_matrix
-from quadlab.trials.recording.primitives import Rgba, colour, entity, pose
-
-GeomKind = Literal["box", "sphere", "cylinder", "capsule", "mesh", "plane"]
+from quadlab.simulation.geom_description import GeomDescription
+from quadlab.trials.recording.primitives import colour, entity, pose
 
 _PLANE_THICKNESS = 0.002  # [m]
 _ENDLESS_PLANE = 20.0  # [m], edge that is drawn of a plane without an edge
-
-
-@dataclass(frozen=True)
-class GeomDescription:
-    """One geometric shape that is fixed to a body.
-
-    Attributes:
-        body: name of the body, "world" for the surroundings.
-        kind: shape; cylinders and capsules lie along z, planes have their normal along z.
-        position: in the body frame, (3,) in [m].
-        quat_wxyz: unit quaternion that turns components of the shape into components of the body, (4,).
-        size: (3,) in [m]: half edges of a box; radius of a sphere; radius and half length (without the caps) of a
-            cylinder or capsule; half edges x, y of a plane, 0 for endless; not used for a mesh.
-        rgba: colour, components in [0, 1].
-        vertices: of a mesh, (n, 3) in [m].
-        faces: of a mesh, (m, 3) indices into ``vertices``.
-    """
-
-    body: str
-    kind: GeomKind
-    position: Array
-    quat_wxyz: Array
-    size: Array
-    rgba: Rgba
-    vertices: Array | None = None
-    faces: NDArray[np.integer[Any]] | None = None
 
 
 def geom_scene(geoms: Sequence[GeomDescription], time_ns: int) -> SceneUpdate:

@@ -12,9 +12,7 @@ from quadlab.planners.vertex_zmp.symbols import Symbols
 from quadlab.planners.vertex_zmp.terms import Constraint, equality
 
 
-def lip_dynamics(
-    symbols: Symbols, grid: PolynomialGrid, footholds: FootholdIndex, model: PlanningModel
-) -> Constraint:
+def lip_dynamics(symbols: Symbols, grid: PolynomialGrid, footholds: FootholdIndex, model: PlanningModel) -> Constraint:
     """Return the dynamics at the start, middle and end of each polynomial, Winkler 2017, Eq. (12) and Appendix B.
 
     c_ddot[t] = g / h (c[t] - u[t]) for t in {t_k, t_k + T_k / 2, t_{k+1}}; the paper prints (t_{k+1} - t_k) / 2 for

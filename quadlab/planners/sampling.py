@@ -1,0 +1,99 @@
+"""Evaluation of whole curves at many times at once, from both sides of every knot."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from quadlab.geometry.polygons import convex_hull
+from quadlab.geometry.rotations import Array
+from quadlab.geometry.splines import PiecewisePolynomial
+from quadlab.planners.plan import MotionPlan
+from quadlab.planners.swing import swing_blend
+
+_KNOT_TOLERANCE = 1e-9  # [s] knots closer than this are one
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Dense times; at a knot there is one sample that belongs to the interval before it and one after it.
+
+    Attributes:
+        times: (s,) in [s].
+        inside: a time within the open interval between knots to which each sample belongs, (s,) in [s].
+    """
+
+    times: Array
+    inside: Array
+
+
+def dense_samples(knots: Sequence[Array], duration_s: float, period_s: float) -> Samples:
+    """Return samples over [0, duration_s], at most ``period_s`` apart, each interval with both of its ends."""
+    merged = np.sort(np.clip(np.concatenate([*knots, [0.0, duration_s]]), 0.0, duration_s))
+    merged = merged[np.r_[True, np.diff(merged) > _KNOT_TOLERANCE]]
+    counts = np.ceil(np.diff(merged) / period_s).astype(int) + 1
+    times = [np.linspace(a, b, count) for a, b, count in zip(merged[:-1], merged[1:], counts, strict=True)]
+    return Samples(np.concatenate(times), np.repeat(0.5 * (merged[:-1] + merged[1:]), counts))
+
+
+def evaluate(curve: PiecewisePolynomial, samples: Samples, derivative: int = 0) -> Array:
+    """Return a curve or one of its time derivatives at all samples, (s, d); at rest outside its span."""
+    piece = np.clip(np.searchsorted(curve.knots, samples.inside) - 1, 0, len(curve.knots) - 2)
+    local = np.clip(samples.times, curve.knots[0], curve.knots[-1]) - curve.knots[piece]
+    values = _horner(_differentiate(curve.coefficients, derivative)[piece], local)
+    resting = (samples.inside < curve.knots[0]) | (samples.inside > curve.knots[-1])
+    return np.where(resting[:, None], 0.0, values) if derivative else values
+
+
+def largest_jump(curve: PiecewisePolynomial, derivative: int) -> float:
+    """Return the largest discontinuity of a time derivative at the inner knots of a curve."""
+    if len(curve.knots) < 3:
+        return 0.0
+    table = _differentiate(curve.coefficients, derivative)
+    return largest_norm(table[1:, 0] - _horner(table[:-1], np.diff(curve.knots)[:-1]))
+
+
+def largest_norm(rows: Array) -> float:
+    """Return the largest Euclidean norm of the rows of (s, d)."""
+    return float(np.linalg.norm(rows, axis=1).max())
+
+
+def foot_positions(plan: MotionPlan, leg: int, samples: Samples) -> Array:
+    """Return one foot over the ground at all samples, (s, 2): standing or on the cubic between two footholds."""
+    footholds, swings = plan.footholds[leg][:, :2], plan.schedule.swings[leg]
+    if not swings:
+        return np.repeat(footholds, len(samples.times), axis=0)
+    starts = np.array([swing.start_s for swing in swings])
+    ends = np.array([swing.end_s for swing in swings])
+    begun, landed = np.searchsorted(starts, samples.inside), np.searchsorted(ends, samples.inside)
+    swing = np.minimum(landed, len(swings) - 1)
+    fraction = np.clip((samples.times - starts[swing]) / (ends - starts)[swing], 0.0, 1.0)
+    blend = np.where(begun > landed, swing_blend(fraction), 0.0)[:, None]
+    return (1.0 - blend) * footholds[landed] + blend * footholds[begun]
+
+
+def distances_outside(points: Array, corners: Array) -> Array:
+    """Return how far each of ``points`` (s, 2) lies outside the hull of ``corners`` (n, 2), (s,) in [m]; 0 inside."""
+    hull = convex_hull(corners)
+    edges = np.roll(hull, -1, axis=0) - hull
+    relative = points[:, None, :] - hull[None]
+    length_squared = np.maximum((edges**2).sum(axis=1), 1e-300)
+    share = np.clip((relative * edges).sum(axis=2) / length_squared, 0.0, 1.0)
+    distance: Array = np.linalg.norm(relative - share[:, :, None] * edges, axis=2).min(axis=1)
+    turn = edges[:, 0] * relative[:, :, 1] - edges[:, 1] * relative[:, :, 0]
+    inside = (turn >= 0.0).all(axis=1) & (len(hull) >= 3)
+    return np.where(inside, 0.0, distance)
+
+
+def _differentiate(coefficients: Array, derivative: int) -> Array:
+    for _ in range(derivative):
+        coefficients = coefficients[:, 1:] * np.arange(1, coefficients.shape[1])[None, :, None]
+    return coefficients
+
+
+def _horner(coefficients: Array, local: Array) -> Array:
+    """Return polynomials (s, degree + 1, d) at local times (s,), (s, d)."""
+    value = coefficients[:, -1]
+    for power in range(coefficients.shape[1] - 2, -1, -1):
+        value = value * local[:, None] + coefficients[:, power]
+    return value

@@ -1,0 +1,90 @@
+"""Promises about the repository as a whole: locked versions, complete metadata, no traces of a machine."""
+
+import re
+import subprocess
+import sys
+import tomllib
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+
+from quadlab.paths import CONF_DIR, checkout_dir
+
+ROOT = checkout_dir() or Path()
+TEXT = {".py", ".md", ".yaml", ".yml", ".toml", ".cff", ".txt", ".xml", ".cfg", ""}
+MACHINE_PATH = re.compile(r"(?<![\w.])/(?:home|Users|root|work|mnt|opt|tmp|scratch)/\w")
+PUBLIC_INDEX = "https://pypi.org/simple"
+
+pytestmark = pytest.mark.skipif(checkout_dir() is None, reason="needs a source tree")
+
+
+def _versioned_files() -> list[Path]:
+    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard"]
+    try:
+        listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    except (FileNotFoundError, subprocess.CalledProcessError):
+        pytest.skip("needs a git repository")
+    return [path for name in listed.splitlines() if (path := ROOT / name).is_file() and path.suffix in TEXT]
+
+
+def test_no_file_mentions_a_path_of_somebodys_machine() -> None:
+    found = [
+        f"{path.relative_to(ROOT)}:{number}: {line.strip()[:100]}"
+        for path in _versioned_files()
+        if path != Path(__file__).resolve()
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if MACHINE_PATH.search(line)
+    ]
+    assert not found, "\n".join(found)
+
+
+def _locked() -> dict[str, set[str]]:
+    packages = tomllib.loads((ROOT / "uv.lock").read_text())["package"]
+    versions: dict[str, set[str]] = {}
+    for package in packages:
+        if package["name"] != "quadlab":
+            versions.setdefault(package["name"], set()).add(package["version"])
+    return versions
+
+
+def test_constraints_name_exactly_the_locked_versions() -> None:
+    constraints: dict[str, set[str]] = {}
+    for line in (ROOT / ".ci" / "constraints.txt").read_text().splitlines():
+        name, version = line.split(";")[0].strip().split("==")
+        constraints.setdefault(name, set()).add(version)
+    assert constraints == _locked(), "run make lock"
+
+
+def test_lock_holds_every_dependency_that_the_project_declares() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    declared = [*project["dependencies"], *sum(project["optional-dependencies"].values(), [])]
+    names = {re.split(r"[<>=\[ ]", requirement)[0].lower().replace("_", "-") for requirement in declared}
+    assert names <= set(_locked()), "run make lock"
+
+
+def test_lock_comes_from_the_public_index_alone() -> None:
+    packages = tomllib.loads((ROOT / "uv.lock").read_text())["package"]
+    sources = {source for package in packages if package["name"] != "quadlab" for source in package["source"].values()}
+    assert sources == {PUBLIC_INDEX}
+
+
+def test_citation_and_package_agree_on_the_version() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert f"version: {project['version']}\n" in (ROOT / "CITATION.cff").read_text()
+    assert f"## {project['version']}" in (ROOT / "CHANGELOG.md").read_text()
+
+
+def test_every_third_party_import_is_a_declared_dependency() -> None:
+    provided = metadata.packages_distributions()
+    declared = set(_locked())
+    code = [*(ROOT / "quadlab").rglob("*.py"), *(ROOT / "experiments").rglob("*.py")]
+    for path in code:
+        for name in re.findall(r"^\s*(?:import|from) (\w+)", path.read_text(), re.MULTILINE):
+            distributions = {item.lower().replace("_", "-") for item in provided.get(name, [])}
+            known = name in sys.stdlib_module_names or name == "quadlab" or bool(distributions & declared)
+            assert known, f"{path.relative_to(ROOT)} imports {name}, which pyproject.toml does not declare"
+
+
+def test_configuration_folder_is_found() -> None:
+    assert (CONF_DIR / "trial.yaml").is_file()
