@@ -2,7 +2,7 @@
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from quadlab import __version__
@@ -29,14 +29,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if _is_override(given):
         return _run(given)
     options = _parser().parse_args(given)
-    action: Callable[[Path], list[Path]] = options.action
+    action: Callable[[Path], Iterable[object]] = options.action
     try:
-        written = action(options.path)
+        for line in action(options.path):
+            sys.stdout.write(f"{line}\n")
     except QuadlabError as error:
         sys.stderr.write(f"quadlab: {error}\n")
         return EXIT_USAGE
-    for path in written:
-        sys.stdout.write(f"{path}\n")
     return 0
 
 
@@ -67,19 +66,21 @@ def _run(overrides: Sequence[str]) -> int:
     return run_main(overrides)
 
 
-def _plot(directory: Path) -> list[Path]:
+def _plot(directory: Path) -> Iterable[Path]:
     from quadlab.plotting.trial_figures import plot_trial  # noqa: PLC0415
 
-    return list(plot_trial(directory))
+    return plot_trial(directory)
 
 
-def _render(directory: Path) -> list[Path]:
+def _render(directory: Path) -> Iterable[Path]:
     from quadlab.trials.render import render_trial  # noqa: PLC0415
 
     return [render_trial(directory)]
 
 
-def _recover(path: Path) -> list[Path]:
-    from quadlab.trials.recording.recover import recover_log  # noqa: PLC0415
+def _recover(part: Path) -> Iterable[str]:
+    from quadlab.trials.recording.recover import default_target, recover_log  # noqa: PLC0415
 
-    return [recover_log(path)]
+    target = default_target(part)
+    report = recover_log(part, target)
+    return [f"{target}: {report.messages} messages up to {report.last_time_s} s ({report.reason})"]

@@ -58,7 +58,8 @@ def test_constraints_name_exactly_the_locked_versions() -> None:
 
 def test_lock_holds_every_dependency_that_the_project_declares() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    declared = [*project["dependencies"], *sum(project["optional-dependencies"].values(), [])]
+    extras = project["optional-dependencies"].values()
+    declared = [*project["dependencies"], *(requirement for extra in extras for requirement in extra)]
     names = {re.split(r"[<>=\[ ]", requirement)[0].lower().replace("_", "-") for requirement in declared}
     assert names <= set(_locked()), "run make lock"
 

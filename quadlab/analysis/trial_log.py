@@ -8,8 +8,8 @@ import pandas as pd
 from quadlab.errors import LogError
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan
+from quadlab.planners.plan_io import bytes_to_plan
 from quadlab.robots.legs import JOINT_NAMES, LEGS
-from quadlab.trials.recording.plan_archive import unpack_plan
 from quadlab.trials.recording.topics import PLAN_ATTACHMENT
 
 _COMPONENTS = frozenset(("w", "x", "y", "z", "roll", "pitch", "yaw", "a", "b", "c", *JOINT_NAMES, *LEGS))
@@ -46,7 +46,7 @@ class TrialLog:
         """
         if PLAN_ATTACHMENT not in self.attachments:
             raise LogError(f"no attachment '{PLAN_ATTACHMENT}'; attached are: {', '.join(sorted(self.attachments))}")
-        return unpack_plan(self.attachments[PLAN_ATTACHMENT])
+        return bytes_to_plan(self.attachments[PLAN_ATTACHMENT], PLAN_ATTACHMENT)
 
 
 def vectors(table: pd.DataFrame, name: str) -> Array:

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from typing import Any, TypeVar
 
 from hydra import compose, initialize_config_dir
-from hydra.errors import HydraException
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 from pydantic import ValidationError
@@ -13,12 +12,10 @@ from quadlab.configuration import StrictModel
 from quadlab.errors import ConfigurationError
 from quadlab.paths import CONF_DIR
 from quadlab.trials.config import RunOptions, TrialConfig
-from quadlab.trials.override_problems import composition_problem
+from quadlab.trials.override_problems import COMPOSITION_ERRORS, composition_problem
 from quadlab.trials.problems import validation_problems
 
 ROOT_NAME = "trial"
-ComposeErrors = (HydraException, OmegaConfBaseException, ValueError)
-"""What Hydra raises for wrong overrides."""
 
 _Model = TypeVar("_Model", bound=StrictModel)
 
@@ -44,7 +41,7 @@ def compose_document(overrides: Sequence[str] = ()) -> DictConfig:
     try:
         with initialize_config_dir(version_base="1.3", config_dir=str(CONF_DIR)):
             return compose(ROOT_NAME, overrides=list(overrides))
-    except ComposeErrors as error:
+    except COMPOSITION_ERRORS as error:
         raise ConfigurationError(composition_problem(error)) from error
 
 

@@ -20,7 +20,6 @@ from quadlab.simulation.scenario import ScenarioConfig
 from quadlab.simulation.simulator import SimulationConfig
 from quadlab.simulation.timing import check_period
 from quadlab.trials.failure import FailureConfig
-from quadlab.trials.failure import FailureConfig
 from quadlab.trials.parts import PartOf
 from quadlab.trials.problems import suggestion
 from quadlab.trials.recording.config import LogConfig
@@ -68,7 +67,6 @@ class TrialConfig(StrictModel):
     simulation: SimulationConfig
     failure: FailureConfig
     log: LogConfig
-    failure: FailureConfig
     duration_s: Positive
     seed: Annotated[int, Field(ge=0)]
     tag: Tag
@@ -95,8 +93,8 @@ class RunOptions(StrictModel):
 def cross_field_problems(config: TrialConfig) -> Iterator[str]:
     """Yield one line for each thing that no group can know alone."""
     timestep_s = config.simulation.timestep_s
-    yield from _refused("", lambda: stride_counts(config.gait, config.duration_s))
-    yield from _refused("controller.rate_hz: ", lambda: check_period(1.0 / config.controller.rate_hz, timestep_s))
+    yield from _refused("", stride_counts, config.gait, config.duration_s)
+    yield from _refused("controller.rate_hz: ", check_period, 1.0 / config.controller.rate_hz, timestep_s)
     links = {link.get("name", "") for link in ET.fromstring(load_urdf_text(config.robot)).iter("link")}
     for number, push in enumerate(config.scenario.pushes):
         where = f"scenario.pushes[{number}]"
@@ -104,11 +102,12 @@ def cross_field_problems(config: TrialConfig) -> Iterator[str]:
             yield f"{where}.body: unknown link '{push.body}'; {suggestion(push.body, links | {BASE_BODY})}"
         if push.start_s >= config.duration_s:
             yield f"{where}.start_s: {push.start_s:g} s is not before the end of the trial at {config.duration_s:g} s"
-        yield from _refused(f"{where}.duration_s: ", lambda push=push: check_period(push.duration_s, timestep_s))
+        yield from _refused(f"{where}.duration_s: ", check_period, push.duration_s, timestep_s)
 
 
-def _refused(where: str, check: Callable[[], object]) -> Iterator[str]:
+def _refused(where: str, check: Callable[..., object], *arguments: object) -> Iterator[str]:
+    """Yield the line with which ``check`` refuses its arguments, if it does."""
     try:
-        check()
+        check(*arguments)
     except ConfigurationError as error:
         yield f"{where}{error}"

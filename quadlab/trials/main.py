@@ -10,14 +10,12 @@ from collections.abc import Sequence
 
 import hydra
 from hydra.core.hydra_config import HydraConfig
-from hydra.errors import HydraException
 from hydra.types import RunMode
 from omegaconf import DictConfig
-from omegaconf.errors import OmegaConfBaseException
 
 from quadlab.errors import QuadlabError
 from quadlab.paths import CONF_DIR
-from quadlab.trials.override_problems import composition_problem
+from quadlab.trials.override_problems import COMPOSITION_ERRORS, composition_problem
 
 EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
@@ -41,20 +39,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     os.environ.setdefault("HYDRA_FULL_ERROR", "1")  # exceptions come here instead of being printed by Hydra
     codes: list[int] = []
 
-    @hydra.main(version_base="1.3", config_path=str(CONF_DIR), config_name="trial")
     def task(document: DictConfig) -> None:
         codes.append(run_document(document))
         if codes[-1] != EXIT_OK and HydraConfig.get().mode == RunMode.MULTIRUN:
             raise JobFailedError(codes[-1])
 
     try:
-        task()
+        hydra.main(version_base="1.3", config_path=str(CONF_DIR), config_name="trial")(task)()
     except JobFailedError as error:
         return error.exit_code
     except KeyboardInterrupt:
         _complain("interrupted")
         return EXIT_INTERRUPTED
-    except (HydraException, OmegaConfBaseException, ValueError) as error:
+    except COMPOSITION_ERRORS as error:
         _complain(composition_problem(error))
         return EXIT_USAGE
     return max(codes, default=EXIT_OK)

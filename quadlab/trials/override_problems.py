@@ -2,10 +2,14 @@
 
 from collections.abc import Mapping
 
-from hydra.errors import MissingConfigException, OverrideParseException
+import yaml
+from hydra.errors import HydraException, MissingConfigException, OverrideParseException
 from omegaconf.errors import OmegaConfBaseException
 
 from quadlab.trials.problems import suggestion
+
+COMPOSITION_ERRORS = (HydraException, OmegaConfBaseException, yaml.YAMLError, ValueError)
+"""What Hydra raises for wrong overrides and wrong files; ValueError for an override without a name."""
 
 
 def composition_problem(error: Exception) -> str:
@@ -20,6 +24,8 @@ def composition_problem(error: Exception) -> str:
         return f"{error.override}: cannot be read as key=value ({_first_line(error.message)})"
     if isinstance(error.__cause__, OmegaConfBaseException):
         return _unknown_key(error.__cause__) or _first_line(error)
+    if isinstance(error, yaml.MarkedYAMLError) and error.problem_mark:
+        return f"{error.problem_mark.name}, line {error.problem_mark.line + 1}: {error.problem}"
     return _first_line(error)
 
 

@@ -12,7 +12,7 @@ from quadlab.errors import LogError
 from quadlab.trials.files import write_json
 
 RESULT_FILE = "result.json"
-SCHEMA_VERSION = 1
+SCHEMA_VERSION: Literal[1] = 1
 
 
 class TrialStatus(StrEnum):

@@ -42,14 +42,13 @@ ROUNDING = 1e-12  # relative to the largest bound: rounding error of a multiplie
 @inlined
 def classify(workspace: Workspace, first: int, last: int) -> bool:
     """Evaluate the rows of a level and give them their roles; return whether there is anything to minimise."""
-    tolerance = row_tolerance(workspace.point)
-    dimension = len(workspace.point)
+    rows, point = workspace.rows, workspace.point
+    tolerance = row_tolerance(point)
     unfinished = False
     for row in range(first, last):
         value = 0.0
-        for column in range(dimension):
-            value += workspace.rows[row, column] * workspace.point[column]
-        workspace.values[row] = value
+        for column in range(len(point)):
+            value += rows[row, column] * point[column]
         lower, upper, slack = workspace.lower[row], workspace.upper[row], tolerance * workspace.norms[row]
         role = FREE
         if lower == upper:
@@ -58,6 +57,7 @@ def classify(workspace: Workspace, first: int, last: int) -> bool:
             role = PULLED
         elif value < lower - slack:
             role = -PULLED
+        workspace.values[row] = value
         workspace.roles[row] = role
         unfinished = unfinished or role != FREE
     return unfinished

@@ -5,6 +5,7 @@ Householder reflections. It is built so that the first ``fixed`` coordinates are
 up: moving in the other, free coordinates u[fixed:] changes none of the rows that were eliminated.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -103,15 +104,16 @@ def allocate(matrix: Array, lower: Array, upper: Array, start: Array) -> Workspa
         np.empty(dimension),
         np.empty(capacity, np.int64),
     )
+    rows, norms = workspace.rows, workspace.norms
     for row in range(count):
         square = 0.0
         for column in range(dimension):
             entry = matrix[row, column]
-            workspace.rows[row, column] = entry
+            rows[row, column] = entry
             square += entry * entry
-        workspace.norms[row] = np.sqrt(square)
-        workspace.lower[row] = lower[row]
-        workspace.upper[row] = upper[row]
+        norms[row] = math.sqrt(square)
+    workspace.lower[:count] = lower
+    workspace.upper[:count] = upper
     return workspace
 
 

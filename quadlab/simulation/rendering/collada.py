@@ -24,7 +24,7 @@ WITHOUT_SURFACE = ("source", "vertices", "lines", "linestrips", "extra")
 
 @dataclass(frozen=True)
 class ColladaPart:
-    """Triangles of one material, z up, in [m].
+    """Triangles of one material.
 
     Attributes:
         corners: corner points of each triangle, (m, 3, 3) in [m].
@@ -37,8 +37,13 @@ class ColladaPart:
     diffuse: Diffuse
 
 
-def read_collada(path: Path) -> list[ColladaPart]:
-    """Return the surfaces of a .dae file, placed by its scene, in [m] with z up.
+def read_collada(path: Path, *, turn_z_up: bool) -> list[ColladaPart]:
+    """Return the surfaces of a .dae file, placed by its scene, in [m].
+
+    Args:
+        path: the file.
+        turn_z_up: whether to turn the file's up axis to z. Viewers of robot descriptions do not, and descriptions
+            are made to look right in them: their meshes are meant in the axes they are written in.
 
     Raises:
         RobotDescriptionError: if the file is not COLLADA or uses what this reader does not know.
@@ -51,7 +56,7 @@ def read_collada(path: Path) -> list[ColladaPart]:
         raise RobotDescriptionError(f"{path}: expected the root element COLLADA, found '{root.tag}'")
     for element in root.iter():
         element.tag = element.tag.rpartition("}")[2]
-    return _Document(path, root).parts()
+    return _Document(path, root).parts(turn_z_up)
 
 
 class _Document:
@@ -62,12 +67,12 @@ class _Document:
         self._root = root
         self._by_id = {element.get("id", ""): element for element in root.iter() if element.get("id")}
 
-    def parts(self) -> list[ColladaPart]:
+    def parts(self, turn_z_up: bool) -> list[ColladaPart]:
         unit = self._root.find("asset/unit")
         scale = 1.0 if unit is None else float(unit.get("meter", "1"))
         up_axis = (self._root.findtext("asset/up_axis") or "Y_UP").strip()
         transform = np.eye(4)
-        transform[:3, :3] = scale * axes_to_z_up(up_axis, self._path)
+        transform[:3, :3] = scale * (axes_to_z_up(up_axis, self._path) if turn_z_up else np.eye(3))
         scene = self._root.find("scene/instance_visual_scene")
         if scene is None:
             raise RobotDescriptionError(f"{self._path}: the file has no scene")

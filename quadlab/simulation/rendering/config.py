@@ -33,7 +33,8 @@ class RenderConfig(StrictModel):
         slow_down: seconds of video per second of the trial.
         snapshots: pictures in the strip.
         strip_columns: pictures side by side in the strip.
-        mesh_cell_m: vertices of meshes are merged in cells of this edge in [m]; 0 keeps all.
+        mesh_cell_sizes: vertices of meshes are merged in cells of this edge, as a multiple of the robot's size; 0
+            keeps all.
         shadow_pixels: edge of the shadow map; more is sharper and slower.
         samples: per pixel, against jagged edges; 0 for none.
         show_foot_forces: draw contact forces as arrows, if the record has them.
@@ -47,8 +48,8 @@ class RenderConfig(StrictModel):
     slow_down: Positive = 1.0
     snapshots: Annotated[int, Field(ge=1)] = 8
     strip_columns: Annotated[int, Field(ge=1)] = 4
-    mesh_cell_m: NonNegative = 0.004
-    shadow_pixels: Annotated[int, Field(ge=16, le=16384)] = 2048
+    mesh_cell_sizes: NonNegative = 0.006
+    shadow_pixels: Annotated[int, Field(ge=16, le=16384)] = 1024
     samples: Annotated[int, Field(ge=0, le=16)] = 4
     show_foot_forces: bool = True
     show_com_reference: bool = True

@@ -67,13 +67,13 @@ def _set_lights(spec: Any, robot_size: float) -> None:
     for light in list(spec.lights):
         spec.delete(light)
     head = spec.visual.headlight
-    head.active, head.ambient, head.diffuse, head.specular = 1, (0.42,) * 3, (0.30,) * 3, (0.0,) * 3
+    head.active, head.ambient, head.diffuse, head.specular = 1, (0.40,) * 3, (0.26,) * 3, (0.0,) * 3
     spec.worldbody.add_light(
         name="fill",
         type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
         dir=FILL_LIGHT_DIRECTION,
         ambient=(0.0,) * 3,
-        diffuse=(0.30,) * 3,
+        diffuse=(0.26,) * 3,
         specular=(0.0,) * 3,
         castshadow=False,
     )
@@ -86,7 +86,7 @@ def _set_lights(spec: Any, robot_size: float) -> None:
         exponent=0.0,
         attenuation=(1.0, 0.0, 0.0),
         ambient=(0.0,) * 3,
-        diffuse=(0.60,) * 3,
+        diffuse=(0.52,) * 3,
         specular=(0.35,) * 3,
         castshadow=True,
     )
@@ -111,9 +111,9 @@ def _add_surfaces(spec: Any, robot_size: float) -> None:
         type=kind.mjTEXTURE_2D,
         builtin=builtin.mjBUILTIN_CHECKER,
         mark=mujoco.mjtMark.mjMARK_EDGE,
-        rgb1=(0.70, 0.705, 0.71),
-        rgb2=(0.655, 0.665, 0.675),
-        markrgb=(0.57, 0.58, 0.60),
+        rgb1=(0.80, 0.805, 0.81),
+        rgb2=(0.745, 0.755, 0.765),
+        markrgb=(0.65, 0.66, 0.68),
         width=256,
         height=256,
     )

@@ -12,7 +12,7 @@ import numpy as np
 from quadlab.simulation.rendering.mesh import TriangleMesh, compact
 from quadlab.simulation.rendering.mesh_files import read_mesh
 
-FORMAT = 1
+FORMAT = 2
 """Goes up when the content of a cache file changes its meaning."""
 
 

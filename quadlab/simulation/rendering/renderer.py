@@ -32,6 +32,9 @@ FOOT_ARROW_SIZES = 0.5
 """Length of the arrow of a foot that carries the whole robot, in robot sizes."""
 
 CAMERA_STEP_S = 0.02
+CELL_DIGITS = 4
+"""Mesh cells are rounded to this many digits in [m], so that the cache serves variants of one robot."""
+
 GRAVITY = 9.81  # [m/s^2]
 
 
@@ -73,7 +76,7 @@ class _TrialPicture:
         self._robot, self._scenario, self._motion, self._config = robot, scenario, motion, config
         self._size = robot_size(robot)
         spec = build_spec(robot, build_ground(scenario.terrain), scenario.friction, ANY_TIMESTEP_S)
-        add_visuals(spec, robot, config.mesh_cell_m)
+        add_visuals(spec, robot, round(config.mesh_cell_sizes * self._size, CELL_DIGITS))
         apply_look(spec, self._size, config.shadow_pixels, config.samples, (config.height, config.width))
         self.model = spec.compile()
         self._data = mujoco.MjData(self.model)

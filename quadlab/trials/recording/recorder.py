@@ -1,6 +1,7 @@
 """Recording of a trial into one MCAP file."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from enum import Enum
 from pathlib import Path
 from types import TracebackType
@@ -11,12 +12,12 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 
 from quadlab.errors import LogError
 from quadlab.planners.plan import MotionPlan
+from quadlab.planners.plan_io import plan_to_bytes
+from quadlab.simulation.geom_description import GeomDescription
 from quadlab.trials.recording import topics
 from quadlab.trials.recording.columns import CONTROL_BLOCKS, STATE_BLOCKS, TIMING_BLOCKS, Block, level_blocks
 from quadlab.trials.recording.config import LogConfig
-from quadlab.trials.recording.geom_scene import GeomDescription
 from quadlab.trials.recording.log_file import LogFile, nanoseconds
-from quadlab.trials.recording.plan_archive import pack_plan
 from quadlab.trials.recording.primitives import stamp
 from quadlab.trials.recording.record import BodyPoses, TickRecord
 from quadlab.trials.recording.scene_writer import SceneWriter
@@ -75,7 +76,7 @@ class TrialRecorder:
         self._level_names = frozenset(level_names)
         self._pushed = False
         self._file = LogFile(path, part_path(path), config.chunk_size_kib * _KIBIBYTE)
-        plan_file = ("application/zip", pack_plan(plan, wall_times=config.wall_times))
+        plan_file = ("application/zip", plan_to_bytes(plan if config.wall_times else _without_wall_times(plan)))
         self._attach({**attachments, topics.PLAN_ATTACHMENT: plan_file}, metadata)
         self._packers = [self._packer(topic, name, rows) for topic, (name, rows) in blocks.items()]
         self._events = self._file.add_foxglove_channel(topics.EVENTS, Log)
@@ -148,3 +149,7 @@ def _blocks(level_names: Sequence[str], config: LogConfig) -> dict[str, tuple[st
     if config.wall_times:
         blocks[topics.TIMING] = ("Timing", TIMING_BLOCKS)
     return blocks
+
+
+def _without_wall_times(plan: MotionPlan) -> MotionPlan:
+    return replace(plan, report=replace(plan.report, build_ms=0.0, solve_ms=0.0))

@@ -8,8 +8,9 @@ from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
 from quadlab.planners.plan import MotionPlan
+from quadlab.simulation.geom_description import GeomDescription
 from quadlab.trials.recording import topics
-from quadlab.trials.recording.geom_scene import GeomDescription, geom_scene
+from quadlab.trials.recording.geom_scene import geom_scene
 from quadlab.trials.recording.log_file import NANOSECONDS, LogFile
 from quadlab.trials.recording.plan_scene import plan_scene
 from quadlab.trials.recording.record import BodyPoses, TickRecord

@@ -10,8 +10,8 @@ from quadlab.geometry.splines import PiecewisePolynomial
 from quadlab.planners.plan import MotionPlan, PlanReport, PlanVerdict
 from quadlab.robots.legs import LEGS
 from quadlab.robots.state import JointCommand, RobotState
+from quadlab.simulation.geom_description import GeomDescription
 from quadlab.trials.recording.config import LogConfig
-from quadlab.trials.recording.geom_scene import GeomDescription
 from quadlab.trials.recording.record import BodyPoses, TickRecord
 from quadlab.trials.recording.recorder import TrialRecorder
 
