@@ -26,7 +26,7 @@ $(STAMP): pyproject.toml .ci/constraints.txt
 	@"$(or $(PYTHON),false)" -c "$(CHECK_VERSION)" 2>/dev/null || \
 		{ echo "quadlab needs Python 3.11, 3.12 or 3.13; found '$(PYTHON)'. Use: make setup PYTHON=/path/to/python3.11" >&2; exit 1; }
 	@test -x $(BIN)/python || "$(PYTHON)" -m venv $(VENV)
-	@echo "installing the locked packages into $(VENV) (about 1.4 GB on disk)"
+	@echo "installing the locked packages into $(VENV) (about 2.4 GB on disk)"
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c .ci/constraints.txt -e ".[dev,video]"
 	@touch $@
 

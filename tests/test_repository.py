@@ -1,5 +1,6 @@
 """Promises about the repository as a whole: locked versions, complete metadata, no traces of a machine."""
 
+import ast
 import re
 import subprocess
 import sys
@@ -14,6 +15,8 @@ from quadlab.paths import CONF_DIR, checkout_dir
 ROOT = checkout_dir() or Path()
 TEXT = {".py", ".md", ".yaml", ".yml", ".toml", ".cff", ".txt", ".xml", ".cfg", ""}
 MACHINE_PATH = re.compile(r"(?<![\w.])/(?:home|Users|root|work|mnt|opt|tmp|scratch)/\w")
+UNLISTED_MODULES = {"pinocchio": ["pin"]}
+"""Modules that are found through a .pth file and not through the list of files of their distribution."""
 PUBLIC_INDEX = "https://pypi.org/simple"
 
 pytestmark = pytest.mark.skipif(checkout_dir() is None, reason="needs a source tree")
@@ -56,12 +59,15 @@ def test_constraints_name_exactly_the_locked_versions() -> None:
     assert constraints == _locked(), "run make lock"
 
 
-def test_lock_holds_every_dependency_that_the_project_declares() -> None:
+def _declared() -> set[str]:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     extras = project["optional-dependencies"].values()
-    declared = [*project["dependencies"], *(requirement for extra in extras for requirement in extra)]
-    names = {re.split(r"[<>=\[ ]", requirement)[0].lower().replace("_", "-") for requirement in declared}
-    assert names <= set(_locked()), "run make lock"
+    requirements = [*project["dependencies"], *(requirement for extra in extras for requirement in extra)]
+    return {re.split(r"[<>=\[ ]", requirement)[0].lower() for requirement in requirements}
+
+
+def test_lock_holds_every_dependency_that_the_project_declares() -> None:
+    assert _declared() <= set(_locked()), "run make lock"
 
 
 def test_lock_comes_from_the_public_index_alone() -> None:
@@ -76,15 +82,20 @@ def test_citation_and_package_agree_on_the_version() -> None:
     assert f"## {project['version']}" in (ROOT / "CHANGELOG.md").read_text()
 
 
+def _imports_of(path: Path) -> set[str]:
+    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    names |= {node.module or "" for node in nodes if isinstance(node, ast.ImportFrom)}
+    return {name.split(".")[0] for name in names} - sys.stdlib_module_names - {"quadlab"}
+
+
 def test_every_third_party_import_is_a_declared_dependency() -> None:
-    provided = metadata.packages_distributions()
-    declared = set(_locked())
-    code = [*(ROOT / "quadlab").rglob("*.py"), *(ROOT / "experiments").rglob("*.py")]
-    for path in code:
-        for name in re.findall(r"^\s*(?:import|from) (\w+)", path.read_text(), re.MULTILINE):
-            distributions = {item.lower().replace("_", "-") for item in provided.get(name, [])}
-            known = name in sys.stdlib_module_names or name == "quadlab" or bool(distributions & declared)
-            assert known, f"{path.relative_to(ROOT)} imports {name}, which pyproject.toml does not declare"
+    provided = {**metadata.packages_distributions(), **UNLISTED_MODULES}
+    for path in [*(ROOT / "quadlab").rglob("*.py"), *(ROOT / "experiments").rglob("*.py")]:
+        for name in _imports_of(path):
+            distributions = {item.lower().replace("_", "-") for item in provided.get(name, [name])}
+            message = f"{path.relative_to(ROOT)} imports {name}, which pyproject.toml does not declare"
+            assert distributions & _declared(), message
 
 
 def test_configuration_folder_is_found() -> None:

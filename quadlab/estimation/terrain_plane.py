@@ -38,9 +38,12 @@ class TerrainPlane:
 
 
 def fit_plane(points: Array, origin: Array) -> TerrainPlane:
-    """Return the least-squares plane through ``points``, (n, 3) in [m], n >= 3, written about ``origin``, (2,)."""
+    """Return the least-squares plane through ``points``, (n, 3) in [m], written about ``origin``, (2,).
+
+    The points must not lie on one vertical plane; four feet never do.
+    """
     columns = np.column_stack([np.ones(len(points)), points[:, :2] - origin])
-    height, slope_x, slope_y = np.linalg.lstsq(columns, points[:, 2], rcond=None)[0]
+    height, slope_x, slope_y = np.linalg.solve(columns.T @ columns, columns.T @ points[:, 2])
     return TerrainPlane(origin, float(height), np.array([slope_x, slope_y]))
 
 

@@ -1,19 +1,19 @@
 """From a robot and a ground to MuJoCo's model: kinematic tree from the URDF, inertias from Pinocchio."""
 
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass
 from typing import Any
 
 import mujoco
 import numpy as np
-import pinocchio as pin
 
-from quadlab.geometry.rotations import Array, matrix_to_quat
 from quadlab.robots.model import RobotModel
 from quadlab.robots.pinocchio_model import foot_links_in_urdf
 from quadlab.simulation.collision import ROBOT_CONTACTS, TERRAIN_CONTACTS, add_collision_shapes
 from quadlab.simulation.conventions import foot_force_sensor, foot_geom
+from quadlab.simulation.links import LinkPlacement, link_placements
 from quadlab.simulation.terrain import Ground
+
+__all__ = ["LinkPlacement", "build_spec", "link_placements"]
 
 CONTACT_TIME_CONSTANT = 0.005  # [s]
 CONTACT_DAMPING_RATIO = 1.0
@@ -24,38 +24,6 @@ TORSIONAL_FRICTION = 0.005  # [m]
 ROLLING_FRICTION = 0.0001  # [m]
 
 IMU_SITE = "imu"
-
-
-@dataclass(frozen=True)
-class LinkPlacement:
-    """Where a link of the URDF is in the simulator's model, which joins links without a joint between them.
-
-    Attributes:
-        body: name of the body that carries the link.
-        position: of the link's frame in the body's frame, (3,) in [m].
-        quat_wxyz: link to body, (4,).
-    """
-
-    body: str
-    position: Array
-    quat_wxyz: Array
-
-
-def link_placements(robot: RobotModel) -> dict[str, LinkPlacement]:
-    """Return, for every link of the URDF, the body that carries it and its pose there."""
-    model = robot.pin_model
-    frames = [frame for frame in model.frames if frame.type == pin.FrameType.BODY]
-    carriers: dict[int, str] = {}
-    for frame in frames:
-        carriers.setdefault(frame.parentJoint, frame.name)
-    return {
-        frame.name: LinkPlacement(
-            carriers[frame.parentJoint],
-            frame.placement.translation.copy(),
-            matrix_to_quat(frame.placement.rotation),
-        )
-        for frame in frames
-    }
 
 
 def build_spec(robot: RobotModel, ground: Ground, friction: float, timestep_s: float) -> Any:

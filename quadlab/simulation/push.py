@@ -1,5 +1,7 @@
 """Pushes: constant forces on a body for a while."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from pydantic import field_validator
 
@@ -39,3 +41,24 @@ class PushConfig(StrictModel):
         """The force, (3,) in [N]."""
         direction = np.array(self.direction)
         return np.asarray(self.force_n * direction / np.linalg.norm(direction))
+
+
+@dataclass(frozen=True)
+class ScheduledPush:
+    """A push in units of the simulation.
+
+    Attributes:
+        body: number of the body in the simulator's model.
+        force: in world axes, (3,) in [N].
+        first_step: the first step in which it acts.
+        end_step: the first step in which it no longer acts.
+    """
+
+    body: int
+    force: Array
+    first_step: int
+    end_step: int
+
+    def is_active(self, step: int) -> bool:
+        """Return whether the push acts in step number ``step``."""
+        return self.first_step <= step < self.end_step

@@ -1,7 +1,6 @@
 """MuJoCo behind quadlab's types: joint torques in, robot states out."""
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -15,7 +14,7 @@ from quadlab.robots.model import RobotModel
 from quadlab.robots.state import JointCommand, RobotState
 from quadlab.simulation.conventions import MujocoMap
 from quadlab.simulation.model_builder import build_spec, link_placements
-from quadlab.simulation.push import BASE_BODY, PushConfig
+from quadlab.simulation.push import BASE_BODY, PushConfig, ScheduledPush
 from quadlab.simulation.scenario import ScenarioConfig, initial_state
 from quadlab.simulation.terrain import build_ground
 from quadlab.simulation.timing import check_period
@@ -36,21 +35,12 @@ class SimulationConfig(StrictModel):
     timestep_s: Positive
 
 
-@dataclass(frozen=True)
-class _ScheduledPush:
-    """A push in units of the simulation: body number, force and the range of steps in which it acts."""
-
-    body: int
-    force: Array
-    first_step: int
-    end_step: int
-
-    def is_active(self, step: int) -> bool:
-        return self.first_step <= step < self.end_step
-
-
 class Simulator:
-    """One robot in one scenario; equal arguments give bit-identical trials on one machine."""
+    """One robot in one scenario; equal arguments give bit-identical trials on one machine.
+
+    Attributes:
+        model: the compiled ``mujoco.MjModel``.
+    """
 
     def __init__(self, robot: RobotModel, scenario: ScenarioConfig, config: SimulationConfig, seed: int) -> None:
         self._robot = robot
@@ -64,14 +54,14 @@ class Simulator:
         self._step = 0
         self.reset()
 
-    def _schedule(self, push: PushConfig) -> _ScheduledPush:
+    def _schedule(self, push: PushConfig) -> ScheduledPush:
         placements = link_placements(self._robot)
         link = self._robot.config.base_link if push.body == BASE_BODY else push.body
         if link not in placements:
             raise ConfigurationError(f"push.body: unknown link '{push.body}'; known: base, {', '.join(placements)}")
         first = math.ceil(push.start_s / self._timestep_s - 1e-6)
         steps = check_period(push.duration_s, self._timestep_s)
-        return _ScheduledPush(self.model.body(placements[link].body).id, push.force, first, first + steps)
+        return ScheduledPush(self.model.body(placements[link].body).id, push.force, first, first + steps)
 
     def reset(self) -> RobotState:
         """Return to the initial state at time zero.

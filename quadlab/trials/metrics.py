@@ -62,16 +62,17 @@ class TrialMetrics:
         self._torque_peaks.append(float(torques.max()))
         self._at_limit += bool((torques >= _AT_LIMIT * self.torque_limits).any())
         self._energy += float(np.abs(command.torques * state.joint_velocities).sum()) * self.period_s
-        self._add_slip(telemetry)
+        self._add_slip(state, telemetry)
         self._ticks_us.append(telemetry.tick_us)
         self._fallbacks = telemetry.fallbacks
         self._hash.update(np.ascontiguousarray(physics_state).tobytes())
 
-    def _add_slip(self, telemetry: ControlTelemetry) -> None:
-        """Integrate the speed of the material point under each standing foot over its stance."""
+    def _add_slip(self, state: RobotState, telemetry: ControlTelemetry) -> None:
+        """Integrate the speed of the material point under each standing, loaded foot over its stance."""
         speeds = np.hypot(*telemetry.foot_contact_velocities[:, :2].T)
+        loaded = state.foot_forces_in_world[:, 2] > 0.0
         standing = np.array([mode is LegMode.STANCE for mode in telemetry.leg_modes])
-        self._slip = np.where(standing, self._slip + speeds * self.period_s, 0.0)
+        self._slip = np.where(standing, self._slip + speeds * loaded * self.period_s, 0.0)
         self._slip_max = max(self._slip_max, float(self._slip.max()))
 
     def summary(self) -> dict[str, float | int | str | None]:

@@ -42,14 +42,15 @@ ROUNDING = 1e-12  # relative to the largest bound: rounding error of a multiplie
 @inlined
 def classify(workspace: Workspace, first: int, last: int) -> bool:
     """Evaluate the rows of a level and give them their roles; return whether there is anything to minimise."""
-    rows, point = workspace.rows, workspace.point
+    rows, point, lowers, uppers = workspace.rows, workspace.point, workspace.lower, workspace.upper
+    norms, values, roles = workspace.norms, workspace.values, workspace.roles
     tolerance = row_tolerance(point)
     unfinished = False
     for row in range(first, last):
         value = 0.0
         for column in range(len(point)):
             value += rows[row, column] * point[column]
-        lower, upper, slack = workspace.lower[row], workspace.upper[row], tolerance * workspace.norms[row]
+        lower, upper, slack = lowers[row], uppers[row], tolerance * norms[row]
         role = FREE
         if lower == upper:
             role = EQUALITY
@@ -57,8 +58,8 @@ def classify(workspace: Workspace, first: int, last: int) -> bool:
             role = PULLED
         elif value < lower - slack:
             role = -PULLED
-        workspace.values[row] = value
-        workspace.roles[row] = role
+        values[row] = value
+        roles[row] = role
         unfinished = unfinished or role != FREE
     return unfinished
 
@@ -84,20 +85,24 @@ def factorise_working_set(workspace: Workspace, fixed: int, working_count: int) 
 @inlined
 def build_system(workspace: Workspace, first: int, last: int, fixed: int, rank: int) -> int:
     """Write the least-squares problem B z = target of the level in the null space Z; return its number of rows."""
-    free = len(workspace.point) - fixed
+    rows, roles, lower, upper = workspace.rows, workspace.roles, workspace.lower, workspace.upper
+    basis, system = workspace.basis, workspace.system
+    target, system_norms = workspace.target, workspace.system_norms
+    values, norms = workspace.values, workspace.norms
+    free = rows.shape[1] - fixed
     count = 0
     for row in range(first, last):
-        if not in_objective(workspace.roles[row]):
+        role = roles[row]
+        if not in_objective(role):
             continue
-        line = workspace.system[count]
         for j in range(free - rank):
-            line[j] = 0.0
+            system[count, j] = 0.0
         for i in range(free):
-            entry = workspace.rows[row, fixed + i]
+            entry = rows[row, fixed + i]
             for j in range(free - rank):
-                line[j] += entry * workspace.basis[i, rank + j]
-        workspace.target[count] = bound_of(workspace, row) - workspace.values[row]
-        workspace.system_norms[count] = workspace.norms[row]
+                system[count, j] += entry * basis[i, rank + j]
+        target[count] = bound_of(role, lower[row], upper[row]) - values[row]
+        system_norms[count] = norms[row]
         count += 1
     return count
 
@@ -105,9 +110,10 @@ def build_system(workspace: Workspace, first: int, last: int, fixed: int, rank: 
 @inlined
 def compute_step(workspace: Workspace, first: int, last: int, fixed: int, rank: int) -> float:
     """Compute the shortest step Z z to the minimum of the current quadratic piece; return its length."""
-    free = len(workspace.point) - fixed
+    step, basis, solution = workspace.step, workspace.basis, workspace.solution
+    free = len(step) - fixed
     for i in range(free):
-        workspace.step[i] = 0.0
+        step[i] = 0.0
     if rank == free:
         return 0.0
     count = build_system(workspace, first, last, fixed, rank)
@@ -119,12 +125,12 @@ def compute_step(workspace: Workspace, first: int, last: int, fixed: int, rank: 
         free - rank,
         workspace.factor,
         workspace.vector,
-        workspace.solution,
+        solution,
     )
     for i in range(free):
         for j in range(free - rank):
-            workspace.step[i] += workspace.basis[i, rank + j] * workspace.solution[j]
-    return tail_norm(workspace.step, 0, free)
+            step[i] += basis[i, rank + j] * solution[j]
+    return tail_norm(step, 0, free)
 
 
 @inlined
@@ -133,24 +139,26 @@ def find_blocking_row(workspace: Workspace, last: int, fixed: int, length: float
 
     Row -1 means that the whole step is possible. Also writes the rates of all live rows.
     """
-    free = len(workspace.point) - fixed
+    rows, roles, norms, rates, step = workspace.rows, workspace.roles, workspace.norms, workspace.rates, workspace.step
+    lower, upper, values = workspace.lower, workspace.upper, workspace.values
+    free = rows.shape[1] - fixed
     fraction, blocking, side = 1.0, -1, 0
     for row in range(last):
-        role = workspace.roles[row]
+        role = roles[row]
         if role == ELIMINATED:
             continue
         rate = 0.0
         for i in range(free):
-            rate += workspace.rows[row, fixed + i] * workspace.step[i]
-        workspace.rates[row] = rate
-        if role in (EQUALITY, HELD, -HELD) or abs(rate) <= PARALLEL_TOLERANCE * workspace.norms[row] * length:
+            rate += rows[row, fixed + i] * step[i]
+        rates[row] = rate
+        if role in (EQUALITY, HELD, -HELD) or abs(rate) <= PARALLEL_TOLERANCE * norms[row] * length:
             continue
         direction = 1 if rate > 0.0 else -1
         if role == direction:  # violated and on its way further out
             continue
         crossed = direction if role == FREE else role
-        bound = workspace.upper[row] if crossed > 0 else workspace.lower[row]
-        possible = max((bound - workspace.values[row]) / rate, 0.0)
+        bound = bound_of(crossed, lower[row], upper[row])
+        possible = max((bound - values[row]) / rate, 0.0)
         if possible < fraction:
             fraction, blocking, side = possible, row, crossed
     return fraction, blocking, side
@@ -159,18 +167,20 @@ def find_blocking_row(workspace: Workspace, last: int, fixed: int, length: float
 @inlined
 def advance(workspace: Workspace, last: int, fixed: int, fraction: float) -> None:
     """Move the point by ``fraction`` of the step."""
-    for i in range(len(workspace.point) - fixed):
-        workspace.point[fixed + i] += fraction * workspace.step[i]
+    point, step, values, rates = workspace.point, workspace.step, workspace.values, workspace.rates
+    roles = workspace.roles
+    for i in range(len(point) - fixed):
+        point[fixed + i] += fraction * step[i]
     for row in range(last):
-        if workspace.roles[row] != ELIMINATED:
-            workspace.values[row] += fraction * workspace.rates[row]
+        if roles[row] != ELIMINATED:
+            values[row] += fraction * rates[row]
 
 
 @inlined
 def hold(workspace: Workspace, row: int, side: int, working_count: int) -> int:
     """Add ``row`` to the working set at its bound on ``side``; return the new size."""
     workspace.roles[row] = HELD * side
-    workspace.values[row] = bound_of(workspace, row)
+    workspace.values[row] = bound_of(side, workspace.lower[row], workspace.upper[row])
     workspace.working[working_count] = row
     return working_count + 1
 
@@ -178,31 +188,34 @@ def hold(workspace: Workspace, row: int, side: int, working_count: int) -> int:
 @inlined
 def compute_multipliers(workspace: Workspace, first: int, last: int, fixed: int, rank: int) -> None:
     """Solve  G_W^T multipliers = -gradient  with G_W = T Y^T, so  T^T multipliers = -Y^T gradient."""
-    free = len(workspace.point) - fixed
-    gradient = workspace.vector
+    rows, basis, gradient, multipliers = workspace.rows, workspace.basis, workspace.vector, workspace.multipliers
+    roles, values, lower, upper = workspace.roles, workspace.values, workspace.lower, workspace.upper
+    free = rows.shape[1] - fixed
     for i in range(free):
         gradient[i] = 0.0
     for row in range(first, last):
-        if in_objective(workspace.roles[row]):
-            residual = workspace.values[row] - bound_of(workspace, row)
+        if in_objective(roles[row]):
+            residual = values[row] - bound_of(roles[row], lower[row], upper[row])
             for i in range(free):
-                gradient[i] += residual * workspace.rows[row, fixed + i]
+                gradient[i] += residual * rows[row, fixed + i]
     for j in range(rank):
-        workspace.multipliers[j] = 0.0
+        multipliers[j] = 0.0
     for i in range(free):
         for j in range(rank):
-            workspace.multipliers[j] -= gradient[i] * workspace.basis[i, j]
-    solve_transposed(workspace.triangle, rank, workspace.multipliers)
+            multipliers[j] -= gradient[i] * basis[i, j]
+    solve_transposed(workspace.triangle, rank, multipliers)
 
 
 @inlined
 def gradient_scales(workspace: Workspace, first: int, last: int) -> tuple[float, float]:
     """Return the largest contribution of a row to the gradient, and the same with its bound for the residual."""
+    roles, values, norms = workspace.roles, workspace.values, workspace.norms
+    lower, upper = workspace.lower, workspace.upper
     largest_residual, largest_bound = 0.0, 0.0
     for row in range(first, last):
-        if in_objective(workspace.roles[row]):
-            bound, norm = bound_of(workspace, row), workspace.norms[row]
-            largest_residual = max(largest_residual, abs(workspace.values[row] - bound) * norm)
+        if in_objective(roles[row]):
+            bound, norm = bound_of(roles[row], lower[row], upper[row]), norms[row]
+            largest_residual = max(largest_residual, abs(values[row] - bound) * norm)
             largest_bound = max(largest_bound, (abs(bound) + norm) * norm)
     return largest_residual, largest_bound
 
@@ -213,20 +226,21 @@ def find_leaving(workspace: Workspace, first: int, last: int, rank: int, bland: 
 
     A row held at its upper bound needs a multiplier >= 0, at its lower bound <= 0, and a row at a kink needs 0.
     """
+    roles, norms, working, multipliers = workspace.roles, workspace.norms, workspace.working, workspace.multipliers
     largest_residual, largest_bound = gradient_scales(workspace, first, last)
     worst = WRONG_SIGN * largest_residual + ROUNDING * largest_bound
     leaving = -1
     for position in range(rank):
-        row = workspace.working[position]
-        outward = workspace.multipliers[position] * workspace.norms[row]
-        if workspace.roles[row] < 0:
+        row = working[position]
+        outward = multipliers[position] * norms[row]
+        if roles[row] < 0:
             outward = -outward
         wrong = abs(outward) if row >= first else -outward
         if wrong <= worst:
             continue
         if not bland:
             worst, leaving = wrong, position
-        elif leaving < 0 or row < workspace.working[leaving]:
+        elif leaving < 0 or row < working[leaving]:
             leaving = position
     return leaving
 

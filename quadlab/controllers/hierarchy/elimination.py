@@ -7,8 +7,10 @@ in the iterative null space of Eq. (12). Deviation from the paper: Eq. (9) keeps
 feasible set without interior.
 """
 
+import math
+
 from quadlab.controllers.hierarchy.active_set import gradient_scales
-from quadlab.controllers.hierarchy.factorisation import RANK_TOLERANCE, make_reflector, reflect, tail_norm
+from quadlab.controllers.hierarchy.factorisation import RANK_TOLERANCE, make_reflector, reflect
 from quadlab.controllers.hierarchy.jit import inlined
 from quadlab.controllers.hierarchy.workspace import (
     ELIMINATED,
@@ -32,19 +34,20 @@ def select_held_rows(workspace: Workspace, first: int, last: int, working_count:
     Returns:
         (number of candidates, size of the working set).
     """
+    roles, norms, working, multipliers = workspace.roles, workspace.norms, workspace.working, workspace.multipliers
     largest_residual, largest_bound = gradient_scales(workspace, first, last)
     threshold = POSITIVE_MULTIPLIER * largest_residual + ROUNDING * largest_bound
     selected, kept = 0, 0
     for position in range(working_count):
-        row = workspace.working[position]
-        outward = workspace.multipliers[position] * workspace.norms[row]
-        if workspace.roles[row] < 0:
+        row = working[position]
+        outward = multipliers[position] * norms[row]
+        if roles[row] < 0:
             outward = -outward
         if row < first and outward > threshold:
             workspace.candidates[selected] = row
             selected += 1
         else:
-            workspace.working[kept] = row
+            working[kept] = row
             kept += 1
     return selected, kept
 
@@ -55,20 +58,22 @@ def select_own_rows(workspace: Workspace, first: int, last: int, selected: int) 
 
     A violated row that ends at its bound becomes an ordinary inequality; its bound moves by the rounding error.
     """
+    roles, norms, lower, upper = workspace.roles, workspace.norms, workspace.lower, workspace.upper
     tolerance = VIOLATED * row_tolerance(workspace.point)
     for row in range(first, last):
-        role, value = workspace.roles[row], workspace.values[row]
+        role, value = roles[row], workspace.values[row]
         if not in_objective(role):
             continue
-        if role == EQUALITY or abs(value - bound_of(workspace, row)) > tolerance * workspace.norms[row]:
+        violation = abs(value - bound_of(role, lower[row], upper[row]))
+        if role == EQUALITY or violation > tolerance * norms[row]:
             workspace.candidates[selected] = row
             selected += 1
             continue
         if role > 0:
-            workspace.upper[row] = max(workspace.upper[row], value)
+            upper[row] = max(upper[row], value)
         else:
-            workspace.lower[row] = min(workspace.lower[row], value)
-        workspace.roles[row] = FREE
+            lower[row] = min(lower[row], value)
+        roles[row] = FREE
     return selected
 
 
@@ -78,36 +83,46 @@ def take_most_independent(workspace: Workspace, selected: int, fixed: int) -> tu
 
     Candidates that keep none are taken off (-1); the others still wait for their turn.
     """
-    dimension = len(workspace.point)
+    rows, norms, candidates = workspace.rows, workspace.norms, workspace.candidates
     best, best_share, best_rest = -1, 0.0, 0.0
     for position in range(selected):
-        row = workspace.candidates[position]
+        row = candidates[position]
         if row < 0:
             continue
-        rest = tail_norm(workspace.rows[row], fixed, dimension)
-        if rest <= RANK_TOLERANCE * workspace.norms[row]:
-            workspace.candidates[position] = -1
-        elif rest > best_share * workspace.norms[row]:
-            best, best_share, best_rest = position, rest / workspace.norms[row], rest
+        square = 0.0
+        for column in range(fixed, rows.shape[1]):
+            square += rows[row, column] * rows[row, column]
+        rest = math.sqrt(square)
+        if rest <= RANK_TOLERANCE * norms[row]:
+            candidates[position] = -1
+        elif rest > best_share * norms[row]:
+            best, best_share, best_rest = position, rest / norms[row], rest
     if best < 0:
         return -1, 0.0
-    row = workspace.candidates[best]
-    workspace.candidates[best] = -1
+    row = candidates[best]
+    candidates[best] = -1
     return row, best_rest
 
 
 @inlined
 def eliminate(workspace: Workspace, row: int, rest: float, count: int, fixed: int) -> None:
     """Rotate the free coordinates so that ``row`` depends on the first of them only, which is thereby used up."""
-    dimension = len(workspace.point)
+    rows, roles = workspace.rows, workspace.roles
+    dimension = rows.shape[1]
     reflector = workspace.reflectors[fixed]
     for column in range(fixed, dimension):
-        reflector[column] = workspace.rows[row, column]
+        reflector[column] = rows[row, column]
     _, scale = make_reflector(reflector, fixed, rest)
     workspace.reflector_scales[fixed] = scale
     for other in range(count):
-        if workspace.roles[other] != ELIMINATED:
-            reflect(workspace.rows[other], reflector, scale, fixed, dimension)
+        if roles[other] == ELIMINATED:
+            continue
+        product = 0.0
+        for column in range(fixed, dimension):
+            product += rows[other, column] * reflector[column]
+        product *= scale
+        for column in range(fixed, dimension):
+            rows[other, column] -= product * reflector[column]
     reflect(workspace.point, reflector, scale, fixed, dimension)
     reflect(workspace.anchor, reflector, scale, fixed, dimension)
 

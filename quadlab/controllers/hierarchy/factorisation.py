@@ -49,6 +49,18 @@ def reflect(vector: Array, reflector: Array, scale: float, begin: int, end: int)
         vector[index] -= product * reflector[index]
 
 
+@inlined
+def reflect_rows(matrix: Array, first: int, last: int, reflector: Array, scale: float, begin: int, end: int) -> None:
+    """Apply H to ``matrix[row, begin:end]`` of the rows ``first`` to ``last`` in place."""
+    for row in range(first, last):
+        product = 0.0
+        for column in range(begin, end):
+            product += matrix[row, column] * reflector[column]
+        product *= scale
+        for column in range(begin, end):
+            matrix[row, column] -= product * reflector[column]
+
+
 @compiled
 def factorise_rows(
     rows: Array,
@@ -96,8 +108,7 @@ def factorise_rows(
         if rest <= WORKING_SET_TOLERANCE * norms[row]:
             continue
         pivot, scale = make_reflector(vector, rank, rest)
-        for i in range(free):
-            reflect(basis[i], vector, scale, rank, free)
+        reflect_rows(basis, 0, free, vector, scale, rank, free)
         for j in range(rank):
             triangle[rank, j] = vector[j]
         triangle[rank, rank] = pivot
@@ -131,7 +142,10 @@ def most_independent(matrix: Array, norms: Array, begin: int, count: int, column
     """Return (row, rest): the row from ``begin`` on that keeps the largest share of its norm in columns[begin:]."""
     best_row, best_share, best_rest = -1, RANK_TOLERANCE, 0.0
     for row in range(begin, count):
-        rest = tail_norm(matrix[row], begin, columns)
+        square = 0.0
+        for column in range(begin, columns):
+            square += matrix[row, column] * matrix[row, column]
+        rest = math.sqrt(square)
         if rest > best_share * norms[row]:
             best_row, best_share, best_rest = row, rest / norms[row], rest
     return best_row, best_rest
@@ -167,8 +181,8 @@ def reduce_rows(
         for row in range(rank):
             factor[row, rank] = 0.0
         factor[rank, rank], scales[rank] = make_reflector(reflector, rank, rest)
+        reflect_rows(system, rank + 1, count, reflector, scales[rank], rank, columns)
         for row in range(rank + 1, count):
-            reflect(system[row], reflector, scales[rank], rank, columns)
             factor[row, rank] = system[row, rank]
     return min(count, columns)
 

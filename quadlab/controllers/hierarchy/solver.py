@@ -1,5 +1,6 @@
 """Hierarchical least squares with words at the border: named levels in, a named solution out."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -75,7 +76,7 @@ def solve_hierarchy(
     slack_of = dict(zip(names, np.split(slacks, stacked.breaks[1:-1]), strict=True))
     return HierarchySolution(
         x=x,
-        residual_norms={name: float(np.linalg.norm(slack)) for name, slack in slack_of.items()},
+        residual_norms={name: math.hypot(*slack) for name, slack in slack_of.items()},
         slacks=slack_of,
         active=dict(zip(names, np.split(active, stacked.breaks[1:-1]), strict=True)),
         iterations=iterations,

@@ -118,9 +118,9 @@ def allocate(matrix: Array, lower: Array, upper: Array, start: Array) -> Workspa
 
 
 @inlined
-def bound_of(workspace: Workspace, row: int) -> float:
-    """Return the bound that the role of ``row`` refers to."""
-    return workspace.upper[row] if workspace.roles[row] > 0 else workspace.lower[row]
+def bound_of(role: int, lower: float, upper: float) -> float:
+    """Return the bound that a role refers to."""
+    return upper if role > 0 else lower
 
 
 @inlined

@@ -35,12 +35,16 @@ class VertexZmpBuild:
 
 @register("planner", "vertex_zmp")
 class VertexZmpPlanner:
-    """CoM motion, footholds and load shares at once, for a given contact schedule."""
+    """CoM motion, footholds and load shares at once, for a given contact schedule.
+
+    Attributes:
+        config: settings.
+    """
 
     Config = VertexZmpConfig
 
     def __init__(self, config: VertexZmpConfig) -> None:
-        self._config = config
+        self.config = config
 
     def build(self, problem: PlanningProblem) -> VertexZmpBuild:
         """Return the nonlinear program of ``problem`` and its solver.
@@ -50,8 +54,8 @@ class VertexZmpPlanner:
         """
         validate_problem(problem)
         begin = time.perf_counter()
-        transcription = transcribe(problem, self._config)
-        solver = make_solver(transcription, self._config)
+        transcription = transcribe(problem, self.config)
+        solver = make_solver(transcription, self.config)
         return VertexZmpBuild(transcription, solver, 1e3 * (time.perf_counter() - begin))
 
     def solve(self, transcription: VertexZmpBuild) -> PlanningOutcome:
@@ -61,12 +65,12 @@ class VertexZmpPlanner:
         if too_far:
             return PlanningOutcome(PlanningStatus.INFEASIBLE, too_far, None)
         solution = run_solver(transcription.solver, transcription.transcription)
-        violated = {k: v for k, v in solution.residuals.items() if not v <= self._config.residual_tolerance}
+        violated = {k: v for k, v in solution.residuals.items() if not v <= self.config.residual_tolerance}
         if violated or not solution.converged:
             status = PlanningStatus.INFEASIBLE if solution.infeasible else PlanningStatus.SOLVER_LIMIT
-            return PlanningOutcome(status, _failure(solution, violated, self._config.residual_tolerance), None)
+            return PlanningOutcome(status, _failure(solution, violated, self.config.residual_tolerance), None)
         plan = motion_plan(transcription.transcription, solution.x, _report(transcription, solution))
-        verdict = check_plan(plan, problem, self._config.checker)
+        verdict = check_plan(plan, problem, self.config.checker)
         if not verdict.accepted:
             found = ", ".join(f"{n} {verdict.values[n]:.3g} > {verdict.tolerances[n]:.3g}" for n in verdict.violated)
             return PlanningOutcome(PlanningStatus.REJECTED, f"the checker found {found}", None)

@@ -16,7 +16,14 @@ FILL_LIGHT_DIRECTION = (-0.8, 0.4, -0.8)
 FOG_START_SIZES, FOG_END_SIZES = 4.0, 13.0
 HORIZON_RGBA = (0.93, 0.95, 0.97, 1.0)
 ZENITH_RGB = (0.78, 0.86, 0.94)
-WOOD_LIGHT_RGB, WOOD_DARK_RGB = (0.62, 0.46, 0.30), (0.52, 0.37, 0.23)
+TILE_RGB = ((0.80, 0.805, 0.81), (0.745, 0.755, 0.765), (0.65, 0.66, 0.68))
+WOOD_RGB = ((0.66, 0.50, 0.33), (0.62, 0.465, 0.30), (0.50, 0.37, 0.23))
+"""Two colours of a checker board and the colour of the lines between."""
+
+TILES_PER_METRE, BOARDS_PER_METRE = (2.0, 2.0), (1.0, 5.0)
+ON_FLOOR_M = 1e-6
+"""Pieces whose top is not above this height are the ground that the robot starts on."""
+
 FLOOR_MATERIAL, WOOD_MATERIAL = "floor_surface", "wood_surface"
 NOT_A_COLOR = (1.0, 1.0, 1.0, 1.0)
 
@@ -24,7 +31,7 @@ NOT_A_COLOR = (1.0, 1.0, 1.0, 1.0)
 def apply_look(spec: Any, robot_size: float, shadow_pixels: int, samples: int, frame_shape: tuple[int, int]) -> None:
     """Give ``spec``, an ``MjSpec`` that is not compiled yet, its light, floor, sky and fog.
 
-    Planes of the world body become the floor, its other geoms are coloured like wood.
+    Planes of the world body and the level ground at height zero are drawn as tiles, all else as wood.
 
     Args:
         spec: the specification.
@@ -33,13 +40,12 @@ def apply_look(spec: Any, robot_size: float, shadow_pixels: int, samples: int, f
         samples: per pixel.
         frame_shape: height and width of the frames in pixels.
     """
-    _add_surfaces(spec, robot_size)
+    _add_surfaces(spec)
     _set_lights(spec, robot_size)
     for geom in spec.worldbody.geoms:
-        is_floor = geom.type == mujoco.mjtGeom.mjGEOM_PLANE
-        geom.material = FLOOR_MATERIAL if is_floor else WOOD_MATERIAL
+        geom.material = FLOOR_MATERIAL if _is_ground(geom) else WOOD_MATERIAL
         geom.rgba = NOT_A_COLOR
-        geom.castshadow = not is_floor
+        geom.castshadow = geom.type != mujoco.mjtGeom.mjGEOM_PLANE
     visual = spec.visual
     spec.stat.extent = robot_size
     visual.map.znear, visual.map.zfar = 0.3, 30.0
@@ -48,6 +54,13 @@ def apply_look(spec: Any, robot_size: float, shadow_pixels: int, samples: int, f
     visual.rgba.fog = visual.rgba.haze = HORIZON_RGBA
     visual.quality.shadowsize, visual.quality.offsamples = shadow_pixels, samples
     visual.global_.offheight, visual.global_.offwidth = frame_shape
+
+
+def _is_ground(geom: Any) -> bool:
+    """Return whether a geom of the world is an endless plane or the level ground that the robot starts on."""
+    is_level = abs(geom.quat[1]) + abs(geom.quat[2]) < 1e-9
+    is_low = float(geom.pos[2] + geom.size[2]) <= ON_FLOOR_M
+    return geom.type == mujoco.mjtGeom.mjGEOM_PLANE or bool(is_level and is_low)
 
 
 def key_light_position(target: Array, robot_size: float) -> Array:
@@ -92,7 +105,7 @@ def _set_lights(spec: Any, robot_size: float) -> None:
     )
 
 
-def _add_surfaces(spec: Any, robot_size: float) -> None:
+def _add_surfaces(spec: Any) -> None:
     builtin, kind = mujoco.mjtBuiltin, mujoco.mjtTexture
     for texture in list(spec.textures):
         if texture.type == kind.mjTEXTURE_SKYBOX:
@@ -106,27 +119,20 @@ def _add_surfaces(spec: Any, robot_size: float) -> None:
         width=64,
         height=384,
     )
-    spec.add_texture(
-        name="tiles",
-        type=kind.mjTEXTURE_2D,
-        builtin=builtin.mjBUILTIN_CHECKER,
-        mark=mujoco.mjtMark.mjMARK_EDGE,
-        rgb1=(0.80, 0.805, 0.81),
-        rgb2=(0.745, 0.755, 0.765),
-        markrgb=(0.65, 0.66, 0.68),
-        width=256,
-        height=256,
-    )
-    spec.add_texture(
-        name="wood",
-        type=kind.mjTEXTURE_CUBE,
-        builtin=builtin.mjBUILTIN_GRADIENT,
-        rgb1=WOOD_LIGHT_RGB,
-        rgb2=WOOD_DARK_RGB,
-        width=64,
-        height=384,
-    )
-    floor = spec.add_material(name=FLOOR_MATERIAL, texuniform=True, texrepeat=(2.0, 2.0), specular=0.0)
-    wood = spec.add_material(name=WOOD_MATERIAL, specular=0.1, shininess=0.1)
-    floor.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "tiles"
-    wood.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "wood"
+    for material, name, colors, per_metre in (
+        (FLOOR_MATERIAL, "tiles", TILE_RGB, TILES_PER_METRE),
+        (WOOD_MATERIAL, "wood", WOOD_RGB, BOARDS_PER_METRE),
+    ):
+        spec.add_texture(
+            name=name,
+            type=kind.mjTEXTURE_2D,
+            builtin=builtin.mjBUILTIN_CHECKER,
+            mark=mujoco.mjtMark.mjMARK_EDGE,
+            rgb1=colors[0],
+            rgb2=colors[1],
+            markrgb=colors[2],
+            width=256,
+            height=256,
+        )
+        surface = spec.add_material(name=material, texuniform=True, texrepeat=per_metre, specular=0.0)
+        surface.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = name

@@ -5,7 +5,9 @@ for a library. The context is therefore made here, by name, at the moment when a
 OSMesa. A program that never draws needs neither.
 """
 
+import ctypes
 import importlib
+import sys
 from types import TracebackType
 from typing import Any, Self
 
@@ -18,24 +20,41 @@ from quadlab.errors import MissingDependencyError
 Frame = NDArray[np.uint8]
 """A picture, (height, width, 3), red, green, blue in 0 to 255, first row on top."""
 
-BACK_ENDS = ("egl", "osmesa")
-HELP = "on Debian or Ubuntu: apt-get install libegl1 libopengl0 libgl1-mesa-dri"
+BACK_ENDS = {"egl": ("libEGL.so.1",), "osmesa": ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")}
+"""Back ends for Linux in order of preference, and the names of the library that each needs."""
+
+HELP = "on Debian or Ubuntu run: apt-get install libegl1 libopengl0 libgl1-mesa-dri"
 MAX_GEOMS = 4000
 
 
 def create_context(width: int, height: int) -> Any:
-    """Return an OpenGL context that needs no display.
+    """Return an OpenGL context that needs no display; outside of Linux, MuJoCo's usual one.
 
     Raises:
         MissingDependencyError: if the system has neither EGL nor OSMesa; says what to install.
     """
-    reasons = []
-    for name in BACK_ENDS:
-        try:
-            return importlib.import_module(f"mujoco.{name}").GLContext(width, height)
-        except (ImportError, AttributeError, OSError, RuntimeError) as error:
-            reasons.append(f"{name}: {' '.join(str(error).split())}")
-    raise MissingDependencyError(f"rendering needs EGL or OSMesa ({'; '.join(reasons)}); {HELP}")
+    module = f"mujoco.{_back_end()}" if sys.platform == "linux" else "mujoco"
+    try:
+        return importlib.import_module(module).GLContext(width, height)
+    except (ImportError, AttributeError, OSError, RuntimeError) as error:
+        reason = " ".join(str(error).split())
+        raise MissingDependencyError(f"rendering without a display failed in {module} ({reason}); {HELP}") from error
+
+
+def _back_end() -> str:
+    """Return the first back end whose library loads; OpenGL is bound to it for the rest of the process."""
+    for name, libraries in BACK_ENDS.items():
+        if any(_loads(library) for library in libraries):
+            return name
+    raise MissingDependencyError(f"rendering needs EGL (libEGL.so.1) or OSMesa, and neither is installed; {HELP}")
+
+
+def _loads(library: str) -> bool:
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
 
 
 class OffscreenRenderer:

@@ -1,5 +1,6 @@
 """Arrows and lines that are no part of the simulated world."""
 
+from itertools import pairwise
 from typing import Any
 
 import mujoco
@@ -27,11 +28,11 @@ def add_arrow(scene: Any, tail: Array, tip: Array, width: float, rgba: tuple[flo
     _add_connector(scene, mujoco.mjtGeom.mjGEOM_ARROW, tail, tip, width, rgba)
 
 
-def add_line(scene: Any, points: Array, width: float, rgba: tuple[float, float, float, float]) -> None:
-    """Add a line through (n, 3) points in [m] as thin capsules of radius ``width``."""
+def add_line(scene: Any, points: Array, width_pixels: float, rgba: tuple[float, float, float, float]) -> None:
+    """Add a line of ``width_pixels`` through (n, 3) points in [m]."""
     kept = points[np.unique(np.linspace(0, len(points) - 1, min(len(points), LONGEST_LINE + 1)).astype(int))]
-    for start, end in zip(kept[:-1], kept[1:], strict=True):
-        _add_connector(scene, mujoco.mjtGeom.mjGEOM_CAPSULE, start, end, width, rgba)
+    for start, end in pairwise(kept):
+        _add_connector(scene, mujoco.mjtGeom.mjGEOM_LINE, start, end, width_pixels, rgba)
 
 
 def _add_connector(

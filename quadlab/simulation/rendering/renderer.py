@@ -28,8 +28,11 @@ ANY_TIMESTEP_S = 1e-3
 PUSH_ARROW_SIZES = 0.8
 """Length of the arrow of a push by half the robot's weight, in robot sizes; it grows with the force."""
 
-FOOT_ARROW_SIZES = 0.5
+FOOT_ARROW_SIZES = 0.8
 """Length of the arrow of a foot that carries the whole robot, in robot sizes."""
+
+LINE_SHARE = 0.006
+"""Width of lines as a share of the picture's height."""
 
 CAMERA_STEP_S = 0.02
 CELL_DIGITS = 4
@@ -111,7 +114,7 @@ class _TrialPicture:
     def _draw_reference(self, scene: Any) -> None:
         reference = self._motion.com_reference_in_world
         if self._config.show_com_reference and reference is not None:
-            overlay.add_line(scene, reference, 0.006 * self._size, overlay.REFERENCE_RGBA)
+            overlay.add_line(scene, reference, LINE_SHARE * self._config.height, overlay.REFERENCE_RGBA)
 
     def _draw_pushes(self, scene: Any, time_s: float) -> None:
         """Draw an arrow whose tip is at the centre of mass of the pushed body, drawn outside of the body."""

@@ -84,7 +84,7 @@ def video_times(motion: Motion, config: RenderConfig) -> Array:
     """Return the trial time of each frame of the video, (n,) in [s]."""
     start, end = motion.span
     step = 1.0 / (config.fps * config.slow_down)
-    return start + step * np.arange(int((end - start) / step + 1e-9) + 1)
+    return np.asarray(start + step * np.arange(int((end - start) / step + 1e-9) + 1), np.float64)
 
 
 def snapshot_times(motion: Motion, scenario: ScenarioConfig, config: RenderConfig) -> Array:

@@ -13,7 +13,7 @@ from quadlab.robots.state import JointCommand, RobotState
 from quadlab.simulation.geom_description import GeomDescription
 from quadlab.trials.recording.config import LogConfig
 from quadlab.trials.recording.record import BodyPoses, TickRecord
-from quadlab.trials.recording.recorder import TrialRecorder
+from quadlab.trials.recording.recorder import TrialRecorder, part_path
 
 CONTROL_PERIOD = 0.0025  # [s]
 LEVELS = ("torque", "friction", "swing", "torso", "forces")
@@ -21,6 +21,10 @@ BODIES = ("base", *(f"{leg}_{link}" for leg in LEGS for link in ("HIP", "THIGH",
 ATTACHMENTS = {"config.yaml": ("text/yaml", b"robot: box\n"), "manifest.json": ("application/json", b"{}")}
 METADATA = {"trial_id": "0123456789abcdef", "robot": "box"}
 PUSHED = range(10, 20)  # ticks
+
+
+class InterruptedTrialError(Exception):
+    """What goes wrong in ``write_interrupted_log``."""
 
 
 def log_config(*, wall_times: bool = True, chunk_size_kib: int = 16) -> LogConfig:
@@ -98,6 +102,17 @@ def write_log(path: Path, ticks: int = 200, config: LogConfig | None = None, wal
         for index in range(ticks):
             log.record(tick_record(index, wall_time_us=wall_time_us), body_poses(index))
     return path
+
+
+def write_interrupted_log(path: Path, ticks: int) -> Path:
+    """Return the part file of a trial that raised after ``ticks`` ticks."""
+    try:
+        with recorder(path, log_config()) as log:
+            for index in range(ticks):
+                log.record(tick_record(index), body_poses(index))
+            raise InterruptedTrialError
+    except InterruptedTrialError:
+        return part_path(path)
 
 
 def _telemetry(index: int, random: np.random.Generator, wall_time_us: float) -> ControlTelemetry:

@@ -1,3 +1,5 @@
+"""The wire bytes of named scalars are ordinary protobuf."""
+
 import numpy as np
 import pytest
 from google.protobuf.descriptor_pb2 import DescriptorProto, FileDescriptorSet

@@ -1,3 +1,5 @@
+"""What a trial log promises to the tools that open it."""
+
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +17,7 @@ from synthetic_records import (
     log_config,
     recorder,
     tick_record,
+    write_interrupted_log,
     write_log,
 )
 
@@ -51,10 +54,7 @@ def test_log_has_its_name_only_when_it_is_complete(tmp_path: Path) -> None:
 
 def test_an_exception_leaves_the_part_file(tmp_path: Path) -> None:
     path = tmp_path / "trial.mcap"
-    with pytest.raises(RuntimeError), recorder(path, log_config()) as log:
-        log.record(tick_record(0), body_poses(0))
-        raise RuntimeError
-    assert part_path(path).exists()
+    assert write_interrupted_log(path, ticks=1).exists()
     assert not path.exists()
 
 

@@ -1,0 +1,1 @@
+"""Reusable drawings, one concept a file; each draws into axes that it is given."""

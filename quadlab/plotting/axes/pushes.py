@@ -1,0 +1,70 @@
+"""Pushes: spans of a time axis and arrows on the ground."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from quadlab.analysis.trial_log import TrialLog, vectors
+from quadlab.geometry.rotations import Array
+from quadlab.plotting.intervals import Interval, intervals_where
+from quadlab.plotting.style import PUSH
+
+_LONGEST_ARROW = 0.22  # [m] on the ground
+
+
+@dataclass(frozen=True)
+class RecordedPush:
+    """One push as the log has it.
+
+    Attributes:
+        interval: when.
+        force: mean over the interval in world axes, (3,) in [N].
+        com_position: where the robot was when it began, (2,) in [m].
+        label: e.g. "120 N".
+    """
+
+    interval: Interval
+    force: Array
+    com_position: Array
+
+    @property
+    def label(self) -> str:
+        """Magnitude and impulse, e.g. "120 N, 18 N s"."""
+        size = float(np.linalg.norm(self.force))
+        return f"{size:.0f} N, {size * self.interval.duration_s:.0f} N s"
+
+
+def recorded_pushes(log: TrialLog, end_s: float) -> tuple[RecordedPush, ...]:
+    """Return the pushes of a trial; neighbouring ticks with a force are one push.
+
+    Args:
+        log: of the trial.
+        end_s: until when the last tick holds in [s].
+    """
+    times = log.state.index.to_numpy(float)
+    forces, com = vectors(log.state, "push_force"), vectors(log.control, "com")
+    found = []
+    for interval in intervals_where(times, forces.any(axis=1), end_s):
+        ticks = (times >= interval.start_s) & (times < interval.end_s)
+        found.append(RecordedPush(interval, forces[ticks].mean(axis=0), com[ticks][0, :2]))
+    return tuple(found)
+
+
+def shade_pushes(axes: Axes, pushes: Sequence[RecordedPush]) -> None:
+    """Shade the time of each push."""
+    for push in pushes:
+        axes.axvspan(*push.interval, color=PUSH, alpha=0.35, lw=0, zorder=0.5)
+
+
+def draw_push_arrows(axes: Axes, pushes: Sequence[RecordedPush]) -> None:
+    """Draw an arrow from the robot's place into the direction of each push; lengths are to scale."""
+    largest = max((float(np.linalg.norm(push.force[:2])) for push in pushes), default=0.0)
+    for push in pushes:
+        if not push.force[:2].any():
+            continue
+        tip = push.com_position + _LONGEST_ARROW / largest * push.force[:2]
+        style = {"arrowstyle": "-|>,head_width=0.16,head_length=0.3", "color": PUSH, "lw": 1.4, "shrinkA": 0}
+        axes.annotate("", tip, push.com_position, arrowprops={**style, "shrinkB": 0}, zorder=6)
+        axes.annotate(push.label, tip, xytext=(3, 0), textcoords="offset points", color=PUSH, va="center", zorder=6)

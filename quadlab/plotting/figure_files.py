@@ -1,0 +1,35 @@
+"""Figures as files: the same figure gives the same bytes."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from quadlab.plotting.style import paper_style
+
+PAPER_FORMATS = ("png", "pdf")
+
+_METADATA: dict[str, dict[str, Any]] = {
+    "png": {"Software": None},
+    "pdf": {"Creator": "quadlab", "CreationDate": None},
+    "svg": {"Creator": "quadlab", "Date": None},
+}
+"""Without time of day."""
+
+
+def save_figure(figure: Figure, folder: Path, name: str, formats: Sequence[str] = PAPER_FORMATS) -> list[Path]:
+    """Write ``figure`` as ``<folder>/<name>.<format>`` and return the paths; an older file is replaced.
+
+    Args:
+        figure: to be written.
+        folder: created if it does not exist.
+        name: without suffix.
+        formats: any of png, pdf and svg.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = [folder / f"{name}.{kind}" for kind in formats]
+    with paper_style():
+        for kind, path in zip(formats, paths, strict=True):
+            figure.savefig(path, format=kind, metadata=_METADATA[kind])
+    return paths

@@ -1,0 +1,126 @@
+"""What the figures of a trial need, from its log alone."""
+
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+from pydantic import TypeAdapter, ValidationError
+
+from quadlab.analysis.log_reader import read_log
+from quadlab.analysis.trial_log import TrialLog
+from quadlab.errors import LogError
+from quadlab.geometry.rotations import Array
+from quadlab.planners.plan import MotionPlan
+from quadlab.plotting.axes.contact_bands import ContactBands, recorded_bands
+from quadlab.plotting.axes.pushes import RecordedPush, recorded_pushes
+from quadlab.robots.config import RobotConfig
+from quadlab.robots.legs import LEGS
+from quadlab.simulation.ground import Ground
+from quadlab.simulation.terrain import TerrainConfig, build_ground
+from quadlab.trials.recording.recorder import part_path
+from quadlab.trials.result import RESULT_FILE, TrialResult, read_result
+
+LOG_FILE = "trial.mcap"
+_CONFIG, _URDF = "config.yaml", "robot.urdf"
+
+
+@dataclass(frozen=True)
+class TrialView:
+    """A recorded trial.
+
+    Attributes:
+        log: its tables.
+        plan: that it followed.
+        config: its configuration as plain data.
+        ground: that it walked on.
+        torque_limits: (12,) in [N m].
+        period_s: control period in [s].
+        result: its outcome, if it has finished.
+    """
+
+    log: TrialLog
+    plan: MotionPlan
+    config: dict[str, Any]
+    ground: Ground
+    torque_limits: Array
+    period_s: float
+    result: TrialResult | None
+
+    @cached_property
+    def times_s(self) -> Array:
+        """Time of each tick, (n,) in [s]."""
+        return self.log.control.index.to_numpy(float)
+
+    @property
+    def end_s(self) -> float:
+        """End of the last tick in [s]."""
+        return float(self.times_s[-1]) + self.period_s
+
+    @cached_property
+    def bands(self) -> ContactBands:
+        """Stance, planned and actual."""
+        return recorded_bands(self.log, self.end_s)
+
+    @cached_property
+    def pushes(self) -> tuple[RecordedPush, ...]:
+        """Pushes in order of time."""
+        return recorded_pushes(self.log, self.end_s)
+
+
+def load_trial_view(directory: Path) -> TrialView:
+    """Return the trial recorded in ``directory``.
+
+    Raises:
+        LogError: if there is no log, or it is damaged, empty or without the attachments that a trial writes.
+    """
+    log = read_log(_log_path(directory))
+    if log.control.empty:
+        raise LogError(f"{directory / LOG_FILE}: no tick was recorded, there is nothing to draw")
+    config = yaml.safe_load(_attachment(log, _CONFIG))
+    try:
+        robot = RobotConfig.model_validate(config["robot"])
+        terrain = TypeAdapter(tuple[TerrainConfig, ...]).validate_python(config["scenario"]["terrain"])
+        period_s = 1.0 / float(config["controller"]["rate_hz"])
+    except (KeyError, TypeError, ValidationError) as error:
+        reason = str(error).splitlines()[0]
+        raise LogError(f"{directory / LOG_FILE}: {_CONFIG} in it does not describe a trial ({reason})") from error
+    return TrialView(
+        log=log,
+        plan=log.plan,
+        config=config,
+        ground=build_ground(terrain),
+        torque_limits=_torque_limits(_attachment(log, _URDF), robot),
+        period_s=period_s,
+        result=read_result(directory) if (directory / RESULT_FILE).is_file() else None,
+    )
+
+
+def _log_path(directory: Path) -> Path:
+    path = directory / LOG_FILE
+    if path.is_file():
+        return path
+    part = part_path(path)
+    if part.is_file():
+        raise LogError(f"{directory}: no {LOG_FILE}, but a trial that did not end; run 'quadlab recover {part}'")
+    if not directory.is_dir():
+        raise LogError(f"{directory}: no such directory; expected that of a trial, with a {LOG_FILE} in it")
+    present = ", ".join(sorted(entry.name for entry in directory.iterdir())) or "nothing"
+    raise LogError(f"{directory}: no {LOG_FILE} in it; expected the directory of a trial, found {present}")
+
+
+def _attachment(log: TrialLog, name: str) -> bytes:
+    if name not in log.attachments:
+        raise LogError(f"no attachment '{name}'; attached are: {', '.join(sorted(log.attachments))}")
+    return log.attachments[name]
+
+
+def _torque_limits(urdf: bytes, robot: RobotConfig) -> Array:
+    """Return the limits in the order of ``JOINT_NAMES``, (12,) in [N m]."""
+    limits = {joint.get("name"): joint.find("limit") for joint in ET.fromstring(urdf).iter("joint")}
+    names = [template.format(leg=robot.legs[leg]) for leg in LEGS for template in robot.joints]
+    found = [limits.get(name) for name in names]
+    return np.array([np.inf if limit is None else float(limit.get("effort", "inf")) for limit in found])

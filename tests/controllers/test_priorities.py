@@ -1,0 +1,113 @@
+"""Priorities are data: what stands higher in the YAML is kept, what stands lower gives way."""
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from controller_cases import controller_config, disturbed_state, robot_named, shipped, standing_schedule, uniform_plan, with_loads
+from pydantic import ValidationError
+
+from quadlab.controllers import hierarchical
+from quadlab.controllers.hierarchical import HierarchicalController
+from quadlab.controllers.hierarchy import HierarchySolution, HierarchyStatus
+from quadlab.controllers.task_levels import LevelConfig, build_task
+from quadlab.controllers.telemetry import ControlTelemetry
+from quadlab.robots.model import RobotModel
+
+TOO_WEAK = 0.05  # of the torque limits: not enough to carry either robot
+
+
+def levels_in_order(*names: str, torque_share: float = 1.0) -> list[dict[str, Any]]:
+    by_name = {level["name"]: level for level in shipped("controller/hierarchical.yaml")["levels"]}
+    by_name["torque"]["tasks"][0]["share"] = torque_share
+    return [by_name[name] for name in names]
+
+
+def standing_tick(robot: RobotModel, levels: list[dict[str, Any]], seed: int) -> ControlTelemetry:
+    controller = HierarchicalController(controller_config(levels=levels), robot)
+    controller.start(uniform_plan(robot, standing_schedule()), with_loads(robot, robot.nominal_state()))
+    return controller.tick(with_loads(robot, disturbed_state(robot, seed, size=0.3)))[1]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_higher_of_two_conflicting_levels_is_kept(robot: RobotModel, seed: int) -> None:
+    torque_first = levels_in_order("torque", "friction", "torso", "forces", torque_share=TOO_WEAK)
+    torso_first = levels_in_order("friction", "torso", "torque", "forces", torque_share=TOO_WEAK)
+    weak, strong = standing_tick(robot, torque_first, seed), standing_tick(robot, torso_first, seed)
+    assert weak.level_residuals["torque"] < 1e-7
+    assert weak.level_residuals["torso"] > 1.0
+    assert strong.level_residuals["torso"] < 1e-7
+    assert strong.level_residuals["torque"] > 1.0
+    assert np.all(np.abs(weak.torques_desired) <= TOO_WEAK * robot.torque_limits * (1 + 1e-9))
+    assert np.any(np.abs(strong.torques_desired) > 1.1 * TOO_WEAK * robot.torque_limits)
+
+
+def test_no_level_pays_for_a_lower_one(robot: RobotModel) -> None:
+    """Adding levels at the bottom never changes the residuals above."""
+    names = ("torque", "friction", "torso", "forces")
+    ticks = [
+        standing_tick(robot, levels_in_order(*names[:count], torque_share=TOO_WEAK), 1)
+        for count in range(1, len(names) + 1)
+    ]
+    for fewer, more in pairwise(ticks):
+        for name, residual in fewer.level_residuals.items():
+            assert more.level_residuals[name] == pytest.approx(residual, abs=1e-6)
+
+
+def test_torques_stay_and_are_counted_when_the_solver_gives_up(
+    robot: RobotModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    controller = HierarchicalController(controller_config(), robot)
+    state = with_loads(robot, robot.nominal_state())
+    controller.start(uniform_plan(robot, standing_schedule()), state)
+    solved, telemetry = controller.tick(state)
+    assert telemetry.fallbacks == 0
+
+    def gives_up(levels: Any, start: Any = None) -> HierarchySolution:
+        nothing: dict[str, Any] = {}
+        return HierarchySolution(np.full(12, 1e3), nothing, nothing, nothing, 500, HierarchyStatus.ITERATION_LIMIT)
+
+    monkeypatch.setattr(hierarchical, "solve_hierarchy", gives_up)
+    kept, telemetry = controller.tick(with_loads(robot, disturbed_state(robot, 0)))
+    np.testing.assert_array_equal(kept.torques, solved.torques)
+    assert telemetry.fallbacks == 1
+
+
+def test_level_names_are_reported_in_order() -> None:
+    config = controller_config(levels=levels_in_order("friction", "torso", "torque"))
+    controller = HierarchicalController(config, robot_named("hyq"))
+    assert controller.level_names == ("friction", "torso", "torque")
+
+
+def test_every_task_of_the_shipped_levels_can_be_built() -> None:
+    config = controller_config()
+    assert all(hasattr(build_task(task), "rows") for level in config.levels for task in level.tasks)
+    assert HierarchicalController.Config.model_validate(config.model_dump()) == config
+
+
+def test_unknown_task_is_named_with_the_known_ones() -> None:
+    with pytest.raises(ValidationError, match=r"unknown task 'dance'; known: .*com_position.*torque_limits"):
+        LevelConfig.model_validate({"name": "fun", "tasks": [{"task": "dance"}]})
+
+
+def test_level_names_must_differ() -> None:
+    twice = levels_in_order("torso", "torso")
+    with pytest.raises(ValidationError, match="level names must differ"):
+        controller_config(levels=twice)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"task": "torque_limits", "share": 1.5},
+        {"task": "friction_cone", "friction": 0.0, "minimum_normal_force_share": 0.0},
+        {"task": "base_height", "proportional_per_s2": -1.0, "derivative_per_s": 0.0},
+        {"task": "base_yaw", "proportional_per_s2": 1.0},
+        {"task": "contact_force_minimisation", "weight": 1.0},
+    ],
+    ids=lambda change: str(change["task"]),
+)
+def test_values_out_of_range_missing_or_unknown_are_refused(change: dict[str, Any]) -> None:
+    with pytest.raises(ValidationError):
+        LevelConfig.model_validate({"name": "level", "tasks": [change]})
