@@ -13,10 +13,10 @@ from pathlib import Path
 
 from quadlab.errors import QuadlabError
 from quadlab.plotting.trial_figures import plot_trial
+from quadlab.plotting.trial_video import render_trial_log
 from quadlab.trials.compose import compose_document, split_document
 from quadlab.trials.job import run_job
 from quadlab.trials.progress import terminal_progress
-from quadlab.trials.render import render_trial
 from quadlab.trials.report import job_report
 
 OVERRIDES = (
@@ -48,7 +48,8 @@ def run_demo(tag: str) -> int:
         sys.stderr.write(f"quadlab: {outcome.failure}\n")
         return 1
     sys.stdout.write(job_report(outcome))
-    written: list[Path] = [*plot_trial(outcome.directory), render_trial(outcome.directory)]
+    rendered = render_trial_log(outcome.directory)
+    written: list[Path] = [*plot_trial(outcome.directory), rendered.video, rendered.strip]
     for path in written:
         sys.stdout.write(f"  {path}\n")
     return 0

@@ -73,9 +73,10 @@ def _plot(directory: Path) -> Iterable[Path]:
 
 
 def _render(directory: Path) -> Iterable[Path]:
-    from quadlab.trials.render import render_trial  # noqa: PLC0415
+    from quadlab.plotting.trial_video import render_trial_log  # noqa: PLC0415
 
-    return [render_trial(directory)]
+    rendered = render_trial_log(directory)
+    return [rendered.video, rendered.strip]
 
 
 def _recover(part: Path) -> Iterable[str]:

@@ -1,9 +1,13 @@
 """The planning problem, one type for all planners: where the robot is, where to, and when which foot stands."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+import numpy as np
 
 from quadlab.gaits.schedule import ContactSchedule
 from quadlab.geometry.rotations import Array
+from quadlab.robots.model import RobotModel
+from quadlab.robots.state import RobotState
 
 GRAVITY = 9.81  # [m/s^2]
 
@@ -17,12 +21,14 @@ class PlanningModel:
         nominal_feet: foot positions relative to the CoM in the heading frame, (4, 2) in [m].
         reach: half size (forward, sideways) of the box around the nominal position that a foot may use, (2,) in [m].
         gravity: in [m/s^2].
+        foot_vertices: corners of each foot in its own frame, (v, 2) in [m]; one at the origin for point feet.
     """
 
     com_height: float
     nominal_feet: Array
     reach: Array
     gravity: float = GRAVITY
+    foot_vertices: Array = field(default_factory=lambda: np.zeros((1, 2)))
 
 
 @dataclass(frozen=True)
@@ -34,12 +40,14 @@ class PlanStart:
         com_velocity: (2,) in [m/s].
         yaw: heading of the base in [rad].
         feet: contact points, (4, 3) in [m].
+        state: the whole state, for planners that move joints; None if only the point mass is known.
     """
 
     com_position: Array
     com_velocity: Array
     yaw: float
     feet: Array
+    state: RobotState | None = None
 
 
 @dataclass(frozen=True)
@@ -63,10 +71,12 @@ class PlanningProblem:
         start: state at time 0.
         waypoints: the path to the goal; the first one is the start.
         schedule: contact flags over the whole horizon.
-        model: robot as the planner sees it.
+        model: robot as a point mass with reachable boxes.
+        robot: robot with its kinematics, for planners that move joints; None if only ``model`` is known.
     """
 
     start: PlanStart
     waypoints: Waypoints
     schedule: ContactSchedule
     model: PlanningModel
+    robot: RobotModel | None = None

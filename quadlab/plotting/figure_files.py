@@ -30,6 +30,8 @@ def save_figure(figure: Figure, folder: Path, name: str, formats: Sequence[str] 
     folder.mkdir(parents=True, exist_ok=True)
     paths = [folder / f"{name}.{kind}" for kind in formats]
     with paper_style():
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")  # laid out once, the same in all formats
         for kind, path in zip(formats, paths, strict=True):
             figure.savefig(path, format=kind, metadata=_METADATA[kind])
     return paths

@@ -38,6 +38,7 @@ class TrialView:
         config: its configuration as plain data.
         ground: that it walked on.
         torque_limits: (12,) in [N m].
+        foot_radius: in [m].
         period_s: control period in [s].
         result: its outcome, if it has finished.
     """
@@ -47,6 +48,7 @@ class TrialView:
     config: dict[str, Any]
     ground: Ground
     torque_limits: Array
+    foot_radius: float
     period_s: float
     result: TrialResult | None
 
@@ -94,6 +96,7 @@ def load_trial_view(directory: Path) -> TrialView:
         config=config,
         ground=build_ground(terrain),
         torque_limits=_torque_limits(_attachment(log, _URDF), robot),
+        foot_radius=robot.foot_radius_m,
         period_s=period_s,
         result=read_result(directory) if (directory / RESULT_FILE).is_file() else None,
     )

@@ -40,6 +40,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     codes: list[int] = []
 
     def task(document: DictConfig) -> None:
+        """Run one job; a sweep learns of a failure by an exception."""
         codes.append(run_document(document))
         if codes[-1] != EXIT_OK and HydraConfig.get().mode == RunMode.MULTIRUN:
             raise JobFailedError(codes[-1])

@@ -34,6 +34,7 @@ def plan_start(robot: RobotModel, state: RobotState) -> PlanStart:
         com_velocity=kinematics.com_velocity[:2],
         yaw=yaw_of(kinematics.base_rotation),
         feet=feet,
+        state=state,
     )
 
 
@@ -47,6 +48,7 @@ def planning_problem(config: TrialConfig, robot: RobotModel, state: RobotState) 
         waypoints=waypoints(config.command, times, pose, config.duration_s),
         schedule=contact_schedule(config.gait, config.duration_s),
         model=planning_model(robot),
+        robot=robot,
     )
 
 

@@ -155,11 +155,19 @@ def uniform_plan(
     velocity: tuple[float, float] = (0.0, 0.0),
     shift: tuple[float, float] = (0.0, 0.0),
     yaw: float = 0.0,
+    *,
+    com_over_feet: bool = False,
 ) -> MotionPlan:
-    """The nominal stance moving with a constant velocity along plan axes that are turned by ``yaw`` and shifted."""
+    """The nominal stance moving with a constant velocity along plan axes that are turned by ``yaw`` and shifted.
+
+    Its CoM is where the robot has it, or over the middle of the feet, where both diagonals can carry it.
+    """
     nominal, turn = robot.kinematics(robot.nominal_state()), rotation_z(yaw)
     offset, speed = np.array([*shift, 0.0]), turn @ np.array([*velocity, 0.0])
-    com = turn @ nominal.com_position + offset
+    com = nominal.com_position.copy()
+    if com_over_feet:
+        com[:2] = nominal.foot_positions[:, :2].mean(axis=0)
+    com = turn @ com + offset
     feet = nominal.foot_positions @ turn.T + offset
     knots = np.array([0.0, schedule.duration_s])
     footholds = tuple(

@@ -9,9 +9,9 @@ feasible set without interior.
 
 import math
 
-from quadlab.controllers.hierarchy.active_set import gradient_scales
 from quadlab.controllers.hierarchy.factorisation import RANK_TOLERANCE, make_reflector, reflect
 from quadlab.controllers.hierarchy.jit import inlined
+from quadlab.controllers.hierarchy.multipliers import gradient_scales
 from quadlab.controllers.hierarchy.workspace import (
     ELIMINATED,
     EQUALITY,

@@ -6,11 +6,12 @@ from typing import TypeAlias
 
 import numpy as np
 
-from quadlab.controllers.hierarchy.active_set import BREAKDOWN, SOLVED, classify, solve_level
+from quadlab.controllers.hierarchy.active_set import BREAKDOWN, SOLVED, solve_level
 from quadlab.controllers.hierarchy.elimination import freeze_level
 from quadlab.controllers.hierarchy.factorisation import reflect
 from quadlab.controllers.hierarchy.jit import compiled_entry, inlined, source_fingerprint
 from quadlab.controllers.hierarchy.level import IndexArray, SideArray
+from quadlab.controllers.hierarchy.step import classify
 from quadlab.controllers.hierarchy.workspace import Workspace, allocate, row_tolerance
 from quadlab.geometry.rotations import Array
 
@@ -46,9 +47,7 @@ def rotate_back(workspace: Workspace, fixed: int) -> Array:
 
 
 @inlined
-def assess_rows(
-    matrix: Array, lower: Array, upper: Array, norms: Array, x: Array
-) -> tuple[Array, SideArray]:
+def assess_rows(matrix: Array, lower: Array, upper: Array, norms: Array, x: Array) -> tuple[Array, SideArray]:
     """Return (slacks, active) of all rows at ``x``, computed from the rows as they were given."""
     slacks = np.zeros(len(lower))
     active = np.zeros(len(lower), np.int8)

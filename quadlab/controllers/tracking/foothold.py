@@ -15,12 +15,12 @@ def balance_correction(config: SwingConfig, velocity_error: Array, com_height: f
     Args:
         config: gain and the speed error at which the answer saturates.
         velocity_error: measured minus desired CoM velocity, (2,) in [m/s].
-        com_height: over the ground in [m].
+        com_height: over the ground in [m]; a fallen robot may have it below, which gives no correction.
         phase: progress of the swing in [0, 1].
     """
     speed = float(np.hypot(*velocity_error))
     saturation = min(1.0, config.feedback_speed_limit_mps / max(speed, 1e-9))
-    return config.feedback * math.sqrt(com_height / GRAVITY) * min(phase, 1.0) * saturation * velocity_error
+    return config.feedback * math.sqrt(max(com_height, 0.0) / GRAVITY) * min(phase, 1.0) * saturation * velocity_error
 
 
 def within_reach(foothold: Array, com: Array, yaw: float, nominal: Array, reach: Array) -> Array:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -23,6 +24,7 @@ Bars = tuple[Sequence[Interval], ...]
 
 _NONE: Bars = ((),) * LEG_COUNT
 _PLANNED_HEIGHT, _ACTUAL_HEIGHT = 0.84, 0.42  # [rows]
+_MARK_ROW = -0.36  # [rows] from the middle of the row: above the bar
 _PLANNED_ALPHA = 0.28
 _MARKS = {
     LegEventKind.EARLY_TOUCH_DOWN: ("v", "early"),
@@ -81,7 +83,8 @@ def draw_contact_bands(axes: Axes, bands: ContactBands) -> None:
         _draw_bars(axes, leg, bands.searching[leg], _ACTUAL_HEIGHT, MEASURED, 1.0)
     for kind, (marker, _) in _MARKS.items():
         found = [event for event in bands.events if event.kind is kind]
-        axes.scatter([e.time_s for e in found], [e.leg for e in found], **_mark(marker))
+        rows = [event.leg + _MARK_ROW for event in found]
+        axes.plot([event.time_s for event in found], rows, **_mark_style(marker))
     axes.set_yticks(range(LEG_COUNT), LEGS)
     axes.set_ylim(LEG_COUNT - 0.5, -0.5)
     axes.tick_params(axis="y", length=0)
@@ -97,7 +100,7 @@ def contact_band_legend(bands: ContactBands) -> list[Artist]:
         handles.append(Patch(color=MEASURED, lw=0, label="searching"))
     for kind, (marker, label) in _MARKS.items():
         if any(event.kind is kind for event in bands.events):
-            handles.append(Line2D([], [], ls="", marker=marker, ms=3, mew=0.6, color=MEASURED, mfc="w", label=label))
+            handles.append(Line2D([], [], **_mark_style(marker), label=label))
     return handles
 
 
@@ -110,6 +113,5 @@ def _draw_bars(axes: Axes, leg: int, bars: Sequence[Interval], height: float, co
     axes.broken_barh(spans, (leg - 0.5 * height, height), facecolors=colour, alpha=alpha, linewidth=0)
 
 
-def _mark(marker: str) -> dict[str, object]:
-    edge = {"facecolors": "w", "edgecolors": MEASURED} if marker != "x" else {"c": MEASURED}
-    return {"s": 9, "marker": marker, "linewidths": 0.6, "zorder": 3, **edge}
+def _mark_style(marker: str) -> dict[str, Any]:
+    return {"ls": "", "marker": marker, "ms": 2.2, "mew": 0.7 if marker == "x" else 0.0, "color": MEASURED}

@@ -4,7 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
 
 from quadlab.analysis.trial_log import TrialLog, vectors
 from quadlab.geometry.rotations import Array
@@ -12,6 +15,15 @@ from quadlab.plotting.intervals import Interval, intervals_where
 from quadlab.plotting.style import PUSH
 
 _LONGEST_ARROW = 0.22  # [m] on the ground
+_SPAN_ALPHA = 0.35
+_LABEL_GAP = 3.0  # [pt]
+_ARROW = {
+    "arrowstyle": "-|>,head_width=0.16,head_length=0.3",
+    "color": PUSH,
+    "lw": 1.4,
+    "shrinkA": 0,
+    "shrinkB": 0,
+}
 
 
 @dataclass(frozen=True)
@@ -55,7 +67,7 @@ def recorded_pushes(log: TrialLog, end_s: float) -> tuple[RecordedPush, ...]:
 def shade_pushes(axes: Axes, pushes: Sequence[RecordedPush]) -> None:
     """Shade the time of each push."""
     for push in pushes:
-        axes.axvspan(*push.interval, color=PUSH, alpha=0.35, lw=0, zorder=0.5)
+        axes.axvspan(*push.interval, color=PUSH, alpha=_SPAN_ALPHA, lw=0, zorder=0.5)
 
 
 def draw_push_arrows(axes: Axes, pushes: Sequence[RecordedPush]) -> None:
@@ -65,6 +77,27 @@ def draw_push_arrows(axes: Axes, pushes: Sequence[RecordedPush]) -> None:
         if not push.force[:2].any():
             continue
         tip = push.com_position + _LONGEST_ARROW / largest * push.force[:2]
-        style = {"arrowstyle": "-|>,head_width=0.16,head_length=0.3", "color": PUSH, "lw": 1.4, "shrinkA": 0}
-        axes.annotate("", tip, push.com_position, arrowprops={**style, "shrinkB": 0}, zorder=6)
-        axes.annotate(push.label, tip, xytext=(3, 0), textcoords="offset points", color=PUSH, va="center", zorder=6)
+        axes.annotate("", tip, push.com_position, arrowprops=_ARROW, zorder=6)
+        _label_tip(axes, push, tip)
+
+
+def push_legend(pushes: Sequence[RecordedPush]) -> list[Artist]:
+    """Return a handle for the spans, if there are any."""
+    return [Patch(color=PUSH, alpha=_SPAN_ALPHA, lw=0, label="push")] if pushes else []
+
+
+def _label_tip(axes: Axes, push: RecordedPush, tip: Array) -> None:
+    """Write the size of the push beyond the tip of its arrow, readable over what lies below."""
+    x, y = push.force[:2] / np.linalg.norm(push.force[:2])
+    sideways = abs(x) > abs(y)
+    text = axes.annotate(
+        push.label,
+        tip,
+        xytext=(_LABEL_GAP * x, _LABEL_GAP * y),
+        textcoords="offset points",
+        color=PUSH,
+        ha=("left" if x > 0.0 else "right") if sideways else "center",
+        va="center" if sideways else ("bottom" if y > 0.0 else "top"),
+        zorder=7,
+    )
+    text.set_path_effects([withStroke(linewidth=2.0, foreground="w")])

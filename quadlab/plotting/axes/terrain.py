@@ -21,6 +21,19 @@ def ground_heights(ground: Ground, points: Array) -> Array:
     return heights
 
 
+def ground_under_feet(ground: Ground, feet: Array, radius: float) -> Array:
+    """Return the highest ground within a foot's reach, (n,) in [m]: a round foot stands on an edge beside its centre.
+
+    Args:
+        ground: heights are looked up at the centre and at four points of the circle.
+        feet: (n, 2) in [m].
+        radius: of the foot in [m].
+    """
+    offsets = radius * np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
+    highest: Array = np.max([ground_heights(ground, feet + offset) for offset in offsets], axis=0)
+    return highest
+
+
 def draw_profile(axes: Axes, ground: Ground, from_x: float, to_x: float, y: float) -> None:
     """Fill the ground below its section at ``y``, between two x, all in [m]."""
     x = np.arange(from_x, to_x, _PROFILE_PERIOD)

@@ -2,18 +2,19 @@
 
 from collections.abc import Sequence
 
-import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from quadlab.geometry.rotations import Array
 from quadlab.plotting.axes.contact_bands import contact_band_legend, draw_contact_bands
-from quadlab.plotting.axes.pushes import shade_pushes
+from quadlab.plotting.axes.pushes import push_legend, shade_pushes
 from quadlab.plotting.style import MEASURED, REFERENCE
 from quadlab.plotting.trial_view import TrialView
 
 BANDS_HEIGHT = 0.62  # [in]
-_FRAME_HEIGHT = 0.45  # [in] legend and labels above and below the rows
+_FRAME_HEIGHT = 0.7  # [in] legends and labels above and below the rows
+_LEGEND_COLUMN = 0.95  # [in]
 
 
 def time_rows(width: float, heights: Sequence[float]) -> tuple[Figure, list[Axes], Axes]:
@@ -30,16 +31,14 @@ def time_rows(width: float, heights: Sequence[float]) -> tuple[Figure, list[Axes
 
 
 def finish_time_rows(view: TrialView, rows: Sequence[Axes], bands: Axes) -> None:
-    """Draw contact bands and pushes; give all rows the same time axis, labelled once."""
+    """Draw contact bands and pushes, with a legend below; give all rows the same time axis, labelled once."""
     draw_contact_bands(bands, view.bands)
-    columns = 3 if bands.get_figure().get_figwidth() < 5.0 else 6
-    handles = contact_band_legend(view.bands)
-    bands.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.52), ncols=min(columns, len(handles)))
     for axes in (*rows, bands):
         axes.set_xlim(0.0, view.end_s)
         shade_pushes(axes, view.pushes)
         axes.tick_params(labelbottom=axes is bands)
     bands.set_xlabel("time [s]")
+    _legend_below(bands, [*contact_band_legend(view.bands), *push_legend(view.pushes)])
 
 
 def draw_tracking(axes: Axes, times_s: Array, reference: Array, measured: Array) -> None:
@@ -62,6 +61,8 @@ def keep_range(axes: Axes, least: float) -> None:
         axes.set_ylim(middle - 0.5 * least, middle + 0.5 * least)
 
 
-def finite_limits(values: Array) -> tuple[float, float]:
-    """Return least and largest of the numbers in ``values`` that are finite."""
-    return float(np.nanmin(values)), float(np.nanmax(values))
+def _legend_below(axes: Axes, handles: Sequence[Artist]) -> None:
+    figure = axes.get_figure(root=True)
+    if figure is not None:
+        columns = min(len(handles), int(figure.get_figwidth() / _LEGEND_COLUMN))
+        figure.legend(handles=list(handles), loc="outside lower center", ncols=columns)

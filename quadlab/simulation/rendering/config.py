@@ -48,7 +48,7 @@ class RenderConfig(StrictModel):
     slow_down: Positive = 1.0
     snapshots: Annotated[int, Field(ge=1)] = 8
     strip_columns: Annotated[int, Field(ge=1)] = 4
-    mesh_cell_sizes: NonNegative = 0.006
+    mesh_cell_sizes: NonNegative = 0.0075
     shadow_pixels: Annotated[int, Field(ge=16, le=16384)] = 1024
     samples: Annotated[int, Field(ge=0, le=16)] = 4
     show_foot_forces: bool = True

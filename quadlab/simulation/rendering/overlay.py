@@ -11,6 +11,9 @@ from quadlab.geometry.rotations import Array
 PUSH_RGBA = (0.85, 0.15, 0.12, 1.0)
 FORCE_RGBA = (0.12, 0.47, 0.71, 0.85)
 REFERENCE_RGBA = (0.95, 0.55, 0.10, 0.9)
+SHORTEST_M = 1e-6
+"""Shorter arrows, and those with an end that is not finite, are left out."""
+
 LONGEST_LINE = 250
 """Segments of a line; a longer one is thinned out."""
 
@@ -38,7 +41,8 @@ def add_line(scene: Any, points: Array, width_pixels: float, rgba: tuple[float, 
 def _add_connector(
     scene: Any, kind: Any, start: Array, end: Array, width: float, rgba: tuple[float, float, float, float]
 ) -> None:
-    if scene.ngeom >= scene.maxgeom or float(np.linalg.norm(end - start)) < 1e-6:
+    length = float(np.linalg.norm(end - start))
+    if scene.ngeom >= scene.maxgeom or not SHORTEST_M < length < np.inf:
         return
     geom = scene.geoms[scene.ngeom]
     color = np.array(rgba, np.float32)

@@ -15,7 +15,8 @@ def random_hierarchy(seed: int, dimension: int = DIMENSION, max_levels: int = MA
     origin = rng.normal(size=dimension) * rng.choice([0.0, 1.0, 10.0])
     levels: list[Level] = []
     for index in range(int(rng.integers(1, max_levels + 1))):
-        matrix = _random_rows(rng, dimension, np.vstack([np.zeros((0, dimension)), *(level.matrix for level in levels)]))
+        earlier = np.vstack([np.zeros((0, dimension)), *(level.matrix for level in levels)])
+        matrix = _random_rows(rng, dimension, earlier)
         lower, upper = _random_bounds(rng, matrix @ origin)
         levels.append(Level(f"level {index}", matrix, lower, upper))
     return levels
@@ -24,6 +25,7 @@ def random_hierarchy(seed: int, dimension: int = DIMENSION, max_levels: int = MA
 def _random_rows(rng: np.random.Generator, dimension: int, earlier: Array) -> Array:
     kind = rng.choice(["dense", "box", "sparse", "low rank", "repeated", "empty"], p=[0.3, 0.15, 0.2, 0.15, 0.1, 0.1])
     count = int(rng.integers(1, 9))
+    matrix: Array
     if kind == "empty":
         return np.zeros((0, dimension))
     if kind == "box":
@@ -32,14 +34,16 @@ def _random_rows(rng: np.random.Generator, dimension: int, earlier: Array) -> Ar
         rank = int(rng.integers(1, 3))
         matrix = rng.normal(size=(count, rank)) @ rng.normal(size=(rank, dimension))
     elif kind == "sparse":
-        matrix = rng.integers(-1, 2, size=(count, dimension)) * (rng.random((count, dimension)) < 0.3)
+        matrix = rng.integers(-1, 2, size=(count, dimension)).astype(np.float64) * (
+            rng.random((count, dimension)) < 0.3
+        )
     elif kind == "repeated" and len(earlier):
         matrix = earlier[rng.integers(0, len(earlier), size=count)] * rng.choice([-1.0, 1.0, 2.0], size=(count, 1))
     else:
         matrix = rng.normal(size=(count, dimension))
     if rng.random() < 0.2:
         matrix = np.vstack([matrix, matrix[:1], -matrix[:1], np.zeros((1, dimension))])
-    return np.asarray(matrix, dtype=np.float64)
+    return matrix
 
 
 def _random_bounds(rng: np.random.Generator, values: Array) -> tuple[Array, Array]:

@@ -17,7 +17,7 @@ def at(foothold: np.ndarray, time: float) -> FootMotion:
 
 
 @footholds
-@pytest.mark.parametrize("time", np.linspace(0.03, 0.32, 9) * 1.0)
+@pytest.mark.parametrize("time", [0.03, 0.08, 0.13, 0.17, 0.18, 0.24, 0.29, 0.33])
 def test_velocity_and_acceleration_are_derivatives(foothold: np.ndarray, time: float) -> None:
     before, now, after = (at(foothold, time + step) for step in (-STEP, 0.0, STEP))
     np.testing.assert_allclose((after.position - before.position) / (2 * STEP), now.velocity, atol=1e-7)

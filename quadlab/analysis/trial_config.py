@@ -1,0 +1,26 @@
+"""The configuration that a trial log carries."""
+
+import yaml
+from pydantic import ValidationError
+
+from quadlab.analysis.trial_log import TrialLog
+from quadlab.errors import LogError
+from quadlab.trials.config import TrialConfig
+
+CONFIG_ATTACHMENT = "config.yaml"
+
+
+def logged_config(log: TrialLog) -> TrialConfig:
+    """Return the validated configuration of the trial.
+
+    Raises:
+        LogError: if the log has none, or one that this version does not understand.
+    """
+    if CONFIG_ATTACHMENT not in log.attachments:
+        raise LogError(f"no attachment '{CONFIG_ATTACHMENT}'; attached are: {', '.join(sorted(log.attachments))}")
+    try:
+        return TrialConfig.model_validate(yaml.safe_load(log.attachments[CONFIG_ATTACHMENT]))
+    except ValidationError as error:
+        first = error.errors()[0]
+        key = ".".join(map(str, first["loc"]))
+        raise LogError(f"{CONFIG_ATTACHMENT} of the log does not fit this version ({key}: {first['msg']})") from error
