@@ -5,7 +5,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from controller_cases import controller_config, disturbed_state, robot_named, shipped, standing_schedule, uniform_plan, with_loads
+from controller_cases import (
+    controller_config,
+    disturbed_state,
+    robot_named,
+    shipped,
+    standing_schedule,
+    uniform_plan,
+    with_loads,
+)
 from pydantic import ValidationError
 
 from quadlab.controllers import hierarchical

@@ -60,9 +60,9 @@ def test_forces_are_the_smallest_that_carry_the_robot(robot: RobotModel) -> None
     arms = telemetry.foot_positions - telemetry.com_position
     total_force = np.tile(np.eye(3), 4)
     total_moment = np.concatenate([np.cross(arm, np.eye(3)).T for arm in arms], axis=1)
-    smallest = np.linalg.lstsq(
-        np.vstack([total_force, total_moment]), [0, 0, robot.mass * 9.81, 0, 0, 0], rcond=None
-    )[0]
+    smallest = np.linalg.lstsq(np.vstack([total_force, total_moment]), [0, 0, robot.mass * 9.81, 0, 0, 0], rcond=None)[
+        0
+    ]
     np.testing.assert_allclose(forces.ravel(), smallest, atol=1e-6 * robot.mass)
 
 

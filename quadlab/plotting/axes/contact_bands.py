@@ -114,4 +114,4 @@ def _draw_bars(axes: Axes, leg: int, bars: Sequence[Interval], height: float, co
 
 
 def _mark_style(marker: str) -> dict[str, Any]:
-    return {"ls": "", "marker": marker, "ms": 2.2, "mew": 0.7 if marker == "x" else 0.0, "color": MEASURED}
+    return {"ls": "", "marker": marker, "ms": 2.6, "mew": 0.7 if marker == "x" else 0.0, "color": MEASURED}

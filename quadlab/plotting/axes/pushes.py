@@ -58,7 +58,7 @@ def recorded_pushes(log: TrialLog, end_s: float) -> tuple[RecordedPush, ...]:
     times = log.state.index.to_numpy(float)
     forces, com = vectors(log.state, "push_force"), vectors(log.control, "com")
     found = []
-    for interval in intervals_where(times, forces.any(axis=1), end_s):
+    for interval in intervals_where(times, np.any(forces != 0.0, axis=1), end_s):
         ticks = (times >= interval.start_s) & (times < interval.end_s)
         found.append(RecordedPush(interval, forces[ticks].mean(axis=0), com[ticks][0, :2]))
     return tuple(found)
@@ -76,9 +76,10 @@ def draw_push_arrows(axes: Axes, pushes: Sequence[RecordedPush]) -> None:
     for push in pushes:
         if not push.force[:2].any():
             continue
-        tip = push.com_position + _LONGEST_ARROW / largest * push.force[:2]
-        axes.annotate("", tip, push.com_position, arrowprops=_ARROW, zorder=6)
-        _label_tip(axes, push, tip)
+        tip_x, tip_y = push.com_position + _LONGEST_ARROW / largest * push.force[:2]
+        start_x, start_y = push.com_position
+        axes.annotate("", (tip_x, tip_y), (start_x, start_y), arrowprops=_ARROW, zorder=6)
+        _label_tip(axes, push, (tip_x, tip_y))
 
 
 def push_legend(pushes: Sequence[RecordedPush]) -> list[Artist]:
@@ -86,7 +87,7 @@ def push_legend(pushes: Sequence[RecordedPush]) -> list[Artist]:
     return [Patch(color=PUSH, alpha=_SPAN_ALPHA, lw=0, label="push")] if pushes else []
 
 
-def _label_tip(axes: Axes, push: RecordedPush, tip: Array) -> None:
+def _label_tip(axes: Axes, push: RecordedPush, tip: tuple[float, float]) -> None:
     """Write the size of the push beyond the tip of its arrow, readable over what lies below."""
     x, y = push.force[:2] / np.linalg.norm(push.force[:2])
     sideways = abs(x) > abs(y)

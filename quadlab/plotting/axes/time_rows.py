@@ -14,7 +14,7 @@ from quadlab.plotting.trial_view import TrialView
 
 BANDS_HEIGHT = 0.62  # [in]
 _FRAME_HEIGHT = 0.7  # [in] legends and labels above and below the rows
-_LEGEND_COLUMN = 0.95  # [in]
+_LEGEND_COLUMN = 0.85  # [in]
 
 
 def time_rows(width: float, heights: Sequence[float]) -> tuple[Figure, list[Axes], Axes]:

@@ -30,7 +30,7 @@ def overview_figure(view: TrialView) -> Figure:
     extent = np.ptp(np.concatenate(world_points(view, followed)), axis=0) + 0.16
     top_down = float(np.clip((TEXT_WIDTH - 0.6) * extent[1] / extent[0], *_TOP_DOWN_HEIGHTS))
     heights = [top_down, _SIDE_HEIGHT, *[_ROW_HEIGHT] * 5, BANDS_HEIGHT]
-    figure = Figure((TEXT_WIDTH, sum(heights) + 2.2), layout="constrained")
+    figure = Figure((TEXT_WIDTH, sum(heights) + 2.6), layout="constrained")
     figure.suptitle(title(view), x=0.01, ha="left", fontsize=7.5)
     rows = figure.subplots(len(heights), height_ratios=heights)
     draw_world_view(rows[0], view, followed)

@@ -24,12 +24,32 @@ def test_every_random_hierarchy_is_certified() -> None:
     assert failures(range(500)) == []
 
 
+@pytest.mark.parametrize("seed", [5402, 22806, 24969, 26517])
+def test_the_certificate_counts_tiny_violations(seed: int) -> None:
+    """Optimal points that violate a row by 1e-6 to 1e-4: dropping such a slack looks like a wrong solution."""
+    levels = random_hierarchy(seed)
+    assert certificate(levels, solve_hierarchy(levels).x).max() < 1e-12
+
+
 def test_certificate_rejects_a_point_that_is_slightly_off() -> None:
     rng = np.random.default_rng(3)
-    for seed in range(50):
+    for seed in range(100):
         levels = [*random_hierarchy(seed), Level("rest", np.eye(DIMENSION), np.zeros(DIMENSION), np.zeros(DIMENSION))]
-        off = solve_hierarchy(levels).x + 1e-2 * rng.normal(size=DIMENSION)
-        assert certificate(levels, off).max() > 1e-4
+        off = solve_hierarchy(levels).x + 1e-4 * rng.normal(size=DIMENSION)
+        assert certificate(levels, off).max() > OPTIMAL
+
+
+def test_certificate_rejects_swapped_priorities() -> None:
+    """Solutions of the same levels in another order are told apart wherever their residuals differ."""
+    told = 0
+    for seed in range(100):
+        levels = random_hierarchy(seed)
+        right, swapped = solve_hierarchy(levels), solve_hierarchy(levels[::-1])
+        gap = max(abs(right.residual_norms[each.name] - swapped.residual_norms[each.name]) for each in levels)
+        if gap > 1e-3:
+            assert certificate(levels, swapped.x).max() > OPTIMAL
+            told += 1
+    assert told > 30
 
 
 @pytest.mark.parametrize("seed", range(60))

@@ -60,9 +60,7 @@ class Script:
             forces = 0.25 * WEIGHT * np.array(loaded(self.time_s), dtype=float)
             events = self.machine.update(self.time_s, PERIOD, feet, forces)
             self.events += [(self.time_s, event) for event in events]
-            self.changes += [
-                (self.time_s, leg, mode) for leg, mode in enumerate(self.modes) if mode is not modes[leg]
-            ]
+            self.changes += [(self.time_s, leg, mode) for leg, mode in enumerate(self.modes) if mode is not modes[leg]]
             self.time_s += PERIOD
         return self
 
@@ -224,12 +222,15 @@ def test_points_of_lift_off_and_touch_down_are_measured() -> None:
 
 def random_loads(generator: np.random.Generator, schedule: ContactSchedule) -> Loads:
     """Load as planned, turned over for random spells."""
-    spells = [(leg, start, start + length) for leg, start, length in zip(
-        generator.integers(0, 4, 30),
-        generator.uniform(0.0, schedule.duration_s, 30),
-        generator.exponential(0.12, 30),
-        strict=True,
-    )]
+    spells = [
+        (leg, start, start + length)
+        for leg, start, length in zip(
+            generator.integers(0, 4, 30),
+            generator.uniform(0.0, schedule.duration_s, 30),
+            generator.exponential(0.12, 30),
+            strict=True,
+        )
+    ]
 
     def loads(time: float) -> list[bool]:
         planned = schedule.contacts_at(time).copy()
