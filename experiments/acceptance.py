@@ -24,10 +24,24 @@ FOLDER = Path("results/acceptance")
 ROBOTS = ("anymal_b", "hyq")
 GAITS = ("walk", "trot")
 DURATION_S = 20.0
-COLUMNS = (
-    "robot gait scenario seed status survived_s distance_m com_error_rms_mm com_error_max_mm base_height_rms_mm "
-    "roll_pitch_rms_deg foot_slip_max_mm torque_max_nm control_fallbacks state_sha256 status_reason"
-).split()
+COLUMNS = [
+    "robot",
+    "gait",
+    "scenario",
+    "seed",
+    "status",
+    "survived_s",
+    "distance_m",
+    "com_error_rms_mm",
+    "com_error_max_mm",
+    "base_height_rms_mm",
+    "roll_pitch_rms_deg",
+    "foot_slip_max_mm",
+    "torque_max_nm",
+    "control_fallbacks",
+    "state_sha256",
+    "status_reason",
+]
 
 
 def trials(seeds: int) -> Iterator[list[str]]:

@@ -25,7 +25,7 @@ from quadlab.robots.model import RobotModel, load_robot
 from quadlab.robots.state import RobotState
 
 ROBOTS = ("anymal_b", "hyq")
-STANCES = ([0, 1, 2, 3], [0, 1, 3], [1, 2], [0, 3], [])
+STANCES: tuple[list[int], ...] = ([0, 1, 2, 3], [0, 1, 3], [1, 2], [0, 3], [])
 """Standing legs: all, three, the two diagonals, none."""
 
 

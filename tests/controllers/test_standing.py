@@ -18,11 +18,12 @@ from quadlab.controllers.hierarchical import HierarchicalController
 from quadlab.controllers.reduced_dynamics import reduce_dynamics
 from quadlab.controllers.telemetry import ControlTelemetry, LegMode
 from quadlab.errors import QuadlabError
-from quadlab.geometry.rotations import rotation_log, wrap_angle
+from quadlab.geometry.rotations import Array, rotation_log, wrap_angle
 from quadlab.robots.model import RobotModel
 from quadlab.robots.state import RobotState
 
 STANDING = [0, 1, 2, 3]
+GRAVITY_IN_WORLD = np.array([0.0, 0.0, -9.81])  # [m/s^2]
 
 
 def first_tick(robot: RobotModel, state: RobotState) -> ControlTelemetry:
@@ -78,7 +79,7 @@ def test_what_can_be_attained_is_attained(robot: RobotModel, seed: int) -> None:
     asked = 60.0 * (telemetry.com_position_reference - telemetry.com_position)[:2] - 16.0 * telemetry.com_velocity[:2]
     np.testing.assert_allclose(com_acceleration[:2], asked, atol=1e-6)
     total_force = telemetry.contact_forces_desired.sum(axis=0)
-    np.testing.assert_allclose(total_force / robot.mass, com_acceleration + [0.0, 0.0, 9.81], atol=1e-6)
+    np.testing.assert_allclose(total_force / robot.mass, com_acceleration - GRAVITY_IN_WORLD, atol=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -115,7 +116,8 @@ def _with_feet_at_rest(robot: RobotModel, state: RobotState) -> RobotState:
     kinematics = robot.kinematics(state)
     jacobian = kinematics.contact_jacobians.reshape(12, 18)
     base = kinematics.generalized_velocity[:6]
-    return replace(state, joint_velocities=-np.linalg.solve(jacobian[:, 6:], jacobian[:, :6] @ base))
+    joints: Array = -np.linalg.solve(jacobian[:, 6:], jacobian[:, :6] @ base)
+    return replace(state, joint_velocities=joints)
 
 
 @pytest.mark.parametrize("yaw", [0.6, -2.8])

@@ -56,9 +56,8 @@ def test_rows_hold_exactly_the_forces_of_the_pyramids(
         limits = reference.normal_force_limits[stance]
         local = np.column_stack([generator.uniform(-1.0, 1.0, (len(stance), 2)), np.ones(len(stance))])
         local[:, :2] *= 1.3 * FRICTION if generator.random() < 0.5 else FRICTION
-        forces = (
-            generator.uniform(-0.01, 1.1, len(stance))[:, None] * limits[:, None] * (local @ reference.ground_axes.T)
-        )
+        normal_forces = generator.uniform(-0.01, 1.1, len(stance)) * limits
+        forces = normal_forces[:, None] * (local @ reference.ground_axes.T)
         pushes = (forces @ normal >= FLOOR_SHARE * reference.weight) & (forces @ normal <= limits)
         sticks = np.maximum(np.abs(forces @ heading), np.abs(forces @ lateral)) <= FRICTION * (forces @ normal)
         verdicts.append(satisfied(rows, forces))

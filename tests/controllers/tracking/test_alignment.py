@@ -22,7 +22,7 @@ TORSO = np.array([0.9, 0.1])
 
 
 def moved(points: Array, yaw: float, shift: tuple[float, float]) -> Array:
-    return points @ rotation_2d(yaw).T + np.array(shift)
+    return np.asarray(points @ rotation_2d(yaw).T + np.array(shift))
 
 
 @motions

@@ -108,8 +108,8 @@ def test_torso_follows_a_share_of_the_slope_under_the_feet(robot: RobotModel, pi
 
 def test_base_keeps_its_height_over_the_ground_under_it(robot: RobotModel) -> None:
     standing_height = float(robot.nominal_state().position_base_in_world[2])
-    lifted = robot.nominal_state()
-    lifted = replace(lifted, position_base_in_world=lifted.position_base_in_world + [0.3, 0.1, 0.25])
+    nominal, shift = robot.nominal_state(), np.array([0.3, 0.1, 0.25])
+    lifted = replace(nominal, position_base_in_world=nominal.position_base_in_world + shift)
     tracker = tracker_for(robot, uniform_plan(robot, standing_schedule()), lifted)
     assert track(tracker, lifted, 0.0, 0.0).reference.base_height == pytest.approx(standing_height + 0.25)
 
