@@ -23,6 +23,7 @@ def _quadlab(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
         (("run", "robot=anymal_x"), "robot: unknown 'anymal_x'; did you mean 'anymal_"),
         (("gait.nmae=trot",), "gait.nmae: unknown key; did you mean 'name'?"),
         (("run", "seed=-1"), "seed: input should be greater than or equal to 0 (got -1)"),
+        (("run", "gait.cycles.x.strides=1"), "Index 'x' (str) is not an int"),
         (("run", "duration_s=[1"), "duration_s=[1: cannot be read as key=value"),
     ],
 )

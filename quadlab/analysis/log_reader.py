@@ -18,7 +18,7 @@ from quadlab.analysis.trial_log import TrialLog
 from quadlab.errors import LogError
 from quadlab.trials.recording import topics
 
-_SCALAR_TOPICS = (topics.STATE, topics.CONTROL, topics.LEVELS, topics.TIMING)
+_SCALAR_TOPICS = (topics.STATE, topics.ESTIMATE, topics.CONTROL, topics.LEVELS, topics.TIMING)
 _REQUIRED = {topics.STATE, topics.CONTROL, topics.EVENTS}
 _DAMAGED = (McapError, ZstdError, ValueError, KeyError, struct.error)
 
@@ -72,6 +72,7 @@ def _read(reader: McapReader, path: Path) -> TrialLog:
     none = pd.DataFrame(index=tables[topics.STATE].index)
     return TrialLog(
         state=tables[topics.STATE],
+        estimate=tables.get(topics.ESTIMATE, none),
         control=tables[topics.CONTROL],
         levels=tables.get(topics.LEVELS, none),
         timing=tables.get(topics.TIMING, none),

@@ -20,7 +20,8 @@ class TrialLog:
     """Everything that a log holds but the drawings; tables are indexed by ``time_s``, simulated time in [s].
 
     Attributes:
-        state: columns of /state.
+        state: columns of /state, the truth.
+        estimate: columns of /estimate, what the controller was given; empty if it was given the truth.
         control: columns of /control.
         levels: residual of each level of the controller.
         timing: computing times; empty if the log was written without them.
@@ -30,6 +31,7 @@ class TrialLog:
     """
 
     state: pd.DataFrame
+    estimate: pd.DataFrame
     control: pd.DataFrame
     levels: pd.DataFrame
     timing: pd.DataFrame

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quadlab.controllers.tasks.task import TaskRows, Variable
+from quadlab.controllers.tasks.task import Variable
 from quadlab.geometry.rotations import Array
 from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.legs import JOINT_COUNT
@@ -35,16 +35,13 @@ class ReducedDynamics:
     force_map: Array
     force_offset: Array
 
-    def in_torques(self, rows: TaskRows) -> tuple[Array, Array, Array]:
-        """Return (matrix, lower, upper) of ``rows`` written in torques."""
-        if rows.variable is Variable.TORQUE:
-            return rows.matrix, rows.lower, rows.upper
-        if rows.variable is Variable.ACCELERATION:
-            linear, offset = self.acceleration_map, self.acceleration_offset
-        else:
-            linear, offset = self.force_map, self.force_offset
-        shift = rows.matrix @ offset
-        return rows.matrix @ linear, rows.lower - shift, rows.upper - shift
+    def map_of(self, variable: Variable) -> tuple[Array, Array]:
+        """Return matrix (n, 12) and offset (n,) that give ``variable`` from the torques."""
+        if variable is Variable.ACCELERATION:
+            return self.acceleration_map, self.acceleration_offset
+        if variable is Variable.FORCE:
+            return self.force_map, self.force_offset
+        return np.eye(JOINT_COUNT), np.zeros(JOINT_COUNT)
 
     def accelerations(self, torques: Array) -> Array:
         """Return u_dot, (18,), for ``torques``, (12,) in [N m]."""

@@ -14,6 +14,7 @@ class ControlReference:
 
     Attributes:
         com_position, com_velocity, com_acceleration: x and y, (2,) in [m], [m/s], [m/s^2].
+        base_position: x and y of the base origin, (2,) in [m]; it moves with the CoM's velocity and acceleration.
         base_height: of the base origin in [m]; it shall be at rest.
         base_rotation: base to world, (3, 3).
         base_angular_velocity: (3,) in [rad/s].
@@ -22,13 +23,16 @@ class ControlReference:
         stance: which legs carry load, (4,).
         normal_force_limits: largest normal force of each leg, (4,) in [N].
         torque_limits: of the joints, (12,) in [N m].
+        joint_position_limits: lower and upper, (12, 2) in [rad].
         weight: of the robot in [N].
+        standing_height: of the base over the ground in the nominal stance, in [m].
         ground_axes: columns heading, lateral and normal of the ground, (3, 3).
     """
 
     com_position: Array
     com_velocity: Array
     com_acceleration: Array
+    base_position: Array
     base_height: float
     base_rotation: Array
     base_angular_velocity: Array
@@ -38,7 +42,9 @@ class ControlReference:
     stance: BoolArray
     normal_force_limits: Array
     torque_limits: Array
+    joint_position_limits: Array
     weight: float
+    standing_height: float
     ground_axes: Array
 
     @property

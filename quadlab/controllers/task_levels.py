@@ -5,26 +5,43 @@ from typing import Annotated, Any
 from pydantic import Field, PlainSerializer, PlainValidator
 
 from quadlab.configuration import StrictModel, registered
-from quadlab.controllers.limits import friction_cone, torque_limits
+from quadlab.controllers.limits import (
+    friction_cone,
+    height_over_footprint,
+    joint_position_limits,
+    limb_extension,
+    torque_limits,
+)
 from quadlab.controllers.tasks import (
     base_height,
     base_orientation,
+    base_position,
     com_position,
     contact_force_minimisation,
+    manipulability_height,
     swing_feet,
+    swing_joint_hold,
+    torque_minimisation,
 )
 from quadlab.controllers.tasks.task import Task
 
-__all__ = ["LevelConfig", "TaskConfig", "build_task"]
+__all__ = ["LevelConfig", "TaskConfig", "build_task", "check_level_names"]
 
 _TASK_MODULES = (
     base_height,
     base_orientation,
+    base_position,
     com_position,
     contact_force_minimisation,
     friction_cone,
+    height_over_footprint,
+    joint_position_limits,
+    limb_extension,
+    manipulability_height,
     swing_feet,
+    swing_joint_hold,
     torque_limits,
+    torque_minimisation,
 )
 """Importing a task's module registers it; a new task is added here."""
 
@@ -62,3 +79,11 @@ def build_task(config: Any) -> Task:
     """Return the task that ``config`` describes."""
     task: Task = registered("task")[config.task](config)
     return task
+
+
+def check_level_names(levels: tuple[LevelConfig, ...]) -> tuple[LevelConfig, ...]:
+    """Return ``levels``; raise ValueError if two have the same name."""
+    names = [level.name for level in levels]
+    if len(set(names)) != len(names):
+        raise ValueError(f"level names must differ; have {', '.join(names)}")
+    return levels

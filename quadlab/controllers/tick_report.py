@@ -2,21 +2,18 @@
 
 import numpy as np
 
-from quadlab.controllers.reduced_dynamics import ReducedDynamics
+from quadlab.controllers.resolver import Resolution
 from quadlab.controllers.telemetry import ControlTelemetry
 from quadlab.controllers.tracking.tracker import TrackedTick
-from quadlab.geometry.rotations import Array, euler_zyx
+from quadlab.geometry.rotations import euler_zyx
 from quadlab.robots.kinematics import Kinematics
 
 
 def describe_tick(
     tracked: TrackedTick,
     kinematics: Kinematics,
-    dynamics: ReducedDynamics,
+    resolution: Resolution,
     *,
-    torques: Array,
-    residuals: dict[str, float],
-    iterations: int,
     fallbacks: int,
     timings_us: tuple[float, float, float],
 ) -> ControlTelemetry:
@@ -25,16 +22,11 @@ def describe_tick(
     Args:
         tracked: what the tracker asked for.
         kinematics: measured.
-        dynamics: reduced to the torques.
-        torques: commanded, (12,) in [N m].
-        residuals: unmet part of each level by name.
-        iterations: of the solver.
+        resolution: what the controller commands.
         fallbacks: counted so far.
         timings_us: model, reference and solve in [us].
     """
     reference = tracked.reference
-    forces = np.zeros((4, 3))
-    forces[reference.stance_legs] = dynamics.forces(torques)
     yaw, pitch, roll = euler_zyx(reference.base_rotation)
     height_of_com_over_base = kinematics.com_position[2] - kinematics.base_position[2]
     return ControlTelemetry(
@@ -53,10 +45,10 @@ def describe_tick(
         foot_contact_velocities=kinematics.contact_jacobians @ kinematics.generalized_velocity,
         leg_modes=tracked.modes,
         planned_contacts=tracked.sample.contacts,
-        contact_forces_desired=forces,
-        torques_desired=torques,
-        level_residuals=residuals,
-        solver_iterations=iterations,
+        contact_forces_desired=resolution.contact_forces,
+        torques_desired=resolution.torques,
+        level_residuals=resolution.residuals,
+        solver_iterations=resolution.iterations,
         fallbacks=fallbacks,
         model_us=timings_us[0],
         reference_us=timings_us[1],

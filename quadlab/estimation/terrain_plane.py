@@ -1,5 +1,6 @@
 """The local ground as a plane through the most recent stance feet (Gehring 2017, III-A; Bellicoso 2016, IV)."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,9 +33,9 @@ class TerrainPlane:
     @property
     def normal(self) -> Array:
         """Unit normal, pointing up, (3,)."""
-        upward = np.array([-self.slope[0], -self.slope[1], 1.0])
-        unit: Array = upward / np.linalg.norm(upward)
-        return unit
+        slope_x, slope_y = (float(value) for value in self.slope)
+        length = math.sqrt(1.0 + slope_x**2 + slope_y**2)
+        return np.array([-slope_x / length, -slope_y / length, 1.0 / length])
 
 
 def fit_plane(points: Array, origin: Array) -> TerrainPlane:

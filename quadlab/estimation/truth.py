@@ -3,6 +3,9 @@
 from typing import Literal
 
 from quadlab.configuration import StrictModel, register
+from quadlab.estimation.estimate import Estimate
+from quadlab.robots.model import RobotModel
+from quadlab.robots.sensing import SensorReading
 from quadlab.robots.state import RobotState
 
 
@@ -15,9 +18,15 @@ class TruthEstimator:
 
         kind: Literal["truth"]
 
-    def __init__(self, config: Config) -> None:
+    sensors = None
+
+    def __init__(self, config: Config, robot: RobotModel, period_s: float, seed: int) -> None:
         self.config = config
 
-    def update(self, true_state: RobotState) -> RobotState:
+    def start(self, reading: SensorReading, true_state: RobotState) -> Estimate:
         """Return ``true_state`` unchanged."""
-        return true_state
+        return Estimate(true_state)
+
+    def update(self, reading: SensorReading, true_state: RobotState) -> Estimate:
+        """Return ``true_state`` unchanged."""
+        return Estimate(true_state)

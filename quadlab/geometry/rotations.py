@@ -95,11 +95,23 @@ def matrix_to_quat(rotation: Array) -> Array:
 
 def rotation_log(rotation: Array) -> Array:
     """Return the rotation vector, (3,) in [rad], of a (3, 3) rotation (exact near 0 and near pi)."""
+    x = float(rotation[2, 1] - rotation[1, 2])
+    y = float(rotation[0, 2] - rotation[2, 0])
+    z = float(rotation[1, 0] - rotation[0, 1])
+    sine = 0.5 * math.sqrt(x * x + y * y + z * z)
+    cosine = 0.5 * (float(rotation[0, 0] + rotation[1, 1] + rotation[2, 2]) - 1.0)
+    if cosine < 0.0 and sine < 1e-3:
+        return _log_near_half_turn(rotation)
+    scale = 0.5 * math.atan2(sine, cosine) / sine if sine > 1e-12 else 0.5
+    return np.array([scale * x, scale * y, scale * z])
+
+
+def _log_near_half_turn(rotation: Array) -> Array:
+    """Where the antisymmetric part vanishes the quaternion still knows the axis."""
     quat = matrix_to_quat(rotation)
     sine = math.sqrt(float(quat[1] ** 2 + quat[2] ** 2 + quat[3] ** 2))
-    if sine < 1e-12:
-        return 2.0 * quat[1:]
-    return (2.0 * math.atan2(sine, float(quat[0])) / sine) * quat[1:]
+    vector: Array = (2.0 * math.atan2(sine, float(quat[0])) / sine) * quat[1:]
+    return vector
 
 
 def skew(vector: Array) -> Array:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quadlab.geometry.rotations import Array
 
@@ -56,6 +57,15 @@ class PiecewisePolynomial:
         value: Array = table[-1].copy()
         for row in table[-2::-1]:
             value = value * local + row
+        return value
+
+    def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
+        """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""
+        table = self._derivatives[derivative][pieces]
+        local = np.asarray(local_s)[:, None]
+        value: Array = table[:, -1]
+        for power in range(table.shape[1] - 2, -1, -1):
+            value = value * local + table[:, power]
         return value
 
     def locate(self, time_s: float) -> tuple[int, float]:

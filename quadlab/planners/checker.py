@@ -5,6 +5,7 @@ import numpy as np
 from quadlab.configuration import NonNegative, Positive, StrictModel
 from quadlab.errors import PlanningProblemError
 from quadlab.gaits.schedule import ContactSchedule
+from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan, PlanVerdict
 from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.sampling import (
@@ -15,8 +16,9 @@ from quadlab.planners.sampling import (
     foot_positions,
     largest_jump,
     largest_norm,
+    turned_vertices,
 )
-from quadlab.robots.legs import LEGS
+from quadlab.robots.legs import foot_names
 
 _MILLI = 1e3
 _TIME_TOLERANCE = 1e-9  # [s]
@@ -70,7 +72,7 @@ def check_plan(plan: MotionPlan, problem: PlanningProblem, config: CheckerConfig
     samples = dense_samples(knots, problem.schedule.duration_s, config.sample_period_s)
     values = {
         **_dynamics(plan, problem, samples),
-        **_support(plan, samples),
+        **_support(plan, problem.model.foot_vertices, samples),
         **_reach(plan, problem, samples),
         **_smoothness(plan),
         **_start(plan, problem),
@@ -84,7 +86,7 @@ def _require_schedule(plan: MotionPlan, schedule: ContactSchedule) -> None:
     same_contacts = np.array_equal(plan.schedule.contacts, schedule.contacts)
     if not (same_contacts and np.allclose(plan.schedule.durations_s, schedule.durations_s, 0.0, _TIME_TOLERANCE)):
         raise PlanningProblemError("plan.schedule: differs from the schedule of the problem")
-    for leg, name in enumerate(LEGS):
+    for leg, name in enumerate(foot_names(schedule.contacts.shape[1])):
         expected = (len(schedule.swings[leg]) + 1, 3)
         if plan.footholds[leg].shape != expected:
             raise PlanningProblemError(
@@ -102,17 +104,23 @@ def _dynamics(plan: MotionPlan, problem: PlanningProblem, samples: Samples) -> d
     }
 
 
-def _support(plan: MotionPlan, samples: Samples) -> dict[str, float]:
+def _support(plan: MotionPlan, vertices: Array, samples: Samples) -> dict[str, float]:
     cop = evaluate(plan.cop, samples)
     switches = plan.schedule.switch_times_s
     worst = [0.0]
     for phase, contacts in enumerate(plan.schedule.contacts):
         middle = 0.5 * float(switches[phase] + switches[phase + 1])
-        counts = [plan.schedule.swing_at(leg, middle)[0] for leg in range(len(LEGS))]
-        corners = np.array([plan.footholds[leg][counts[leg], :2] for leg in np.flatnonzero(contacts)])
+        corners = np.concatenate([_corners(plan, leg, middle, vertices) for leg in np.flatnonzero(contacts)])
         held = (samples.inside > switches[phase]) & (samples.inside < switches[phase + 1])
         worst.append(float(distances_outside(cop[held], corners).max()))
     return {"cop_outside_mm": _MILLI * float(np.max(worst))}
+
+
+def _corners(plan: MotionPlan, leg: int, time_s: float, vertices: Array) -> Array:
+    """Return where the vertices of a standing foot are, (v, 2) in [m]."""
+    stance = plan.schedule.swing_at(leg, time_s)[0]
+    yaw = plan.foot_yaws[leg][stance] if plan.foot_yaws else np.zeros(())
+    return plan.footholds[leg][stance, :2] + turned_vertices(vertices, yaw)
 
 
 def _reach(plan: MotionPlan, problem: PlanningProblem, samples: Samples) -> dict[str, float]:
@@ -120,7 +128,7 @@ def _reach(plan: MotionPlan, problem: PlanningProblem, samples: Samples) -> dict
     yaw = evaluate(plan.heading, samples)[:, 0]
     cosine, sine = np.cos(yaw), np.sin(yaw)
     worst = [0.0]
-    for leg in range(len(LEGS)):
+    for leg in range(len(plan.footholds)):
         relative = foot_positions(plan, leg, samples) - com
         forward = cosine * relative[:, 0] + sine * relative[:, 1]
         sideways = cosine * relative[:, 1] - sine * relative[:, 0]

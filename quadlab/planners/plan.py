@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field
 
 from quadlab.gaits.schedule import BoolArray, ContactSchedule
+from quadlab.geometry.curve import Curve
 from quadlab.geometry.rotations import Array
-from quadlab.geometry.splines import PiecewisePolynomial
 
 
 @dataclass(frozen=True)
@@ -50,6 +50,10 @@ class PlanVerdict:
         return not self.violated
 
 
+UNCHECKED = PlanVerdict({}, {})
+"""The verdict of a plan on its way to the checker."""
+
+
 @dataclass(frozen=True)
 class PlanReport:
     """How a plan came about.
@@ -61,6 +65,7 @@ class PlanReport:
         variables, constraints: size of the nonlinear program.
         costs: final cost by name.
         residuals: worst violation of each named constraint set, in its own unit, as the transcription sees it.
+        cost_history: cost by name of the first guess and after every iteration; empty if the solver does not tell.
     """
 
     planner: str
@@ -71,6 +76,22 @@ class PlanReport:
     constraints: int
     costs: dict[str, float] = field(default_factory=dict)
     residuals: dict[str, float] = field(default_factory=dict)
+    cost_history: list[dict[str, float]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class BaseMotion:
+    """The base at the samples of a plan, for planners that plan it.
+
+    Attributes:
+        times_s: (n,) increasing in [s].
+        positions: base origin in the plan frame, (n, 3) in [m].
+        quats_wxyz: base to plan frame, (n, 4).
+    """
+
+    times_s: Array
+    positions: Array
+    quats_wxyz: Array
 
 
 @dataclass(frozen=True)
@@ -85,15 +106,19 @@ class MotionPlan:
         footholds: per leg (swings + 1, 3) in [m]: where it starts, then where each swing ends.
         report: how it was made.
         verdict: what the checker says about it.
+        foot_yaws: per foot (swings + 1,) yaw of the foot in each stance in [rad]; empty for point feet.
+        base: pose of the base at samples, for planners that plan it; None for a point mass.
     """
 
     schedule: ContactSchedule
-    com: PiecewisePolynomial
-    heading: PiecewisePolynomial
-    cop: PiecewisePolynomial
+    com: Curve
+    heading: Curve
+    cop: Curve
     footholds: tuple[Array, ...]
     report: PlanReport
     verdict: PlanVerdict
+    foot_yaws: tuple[Array, ...] = ()
+    base: BaseMotion | None = None
 
     @property
     def duration_s(self) -> float:

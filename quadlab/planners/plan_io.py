@@ -11,14 +11,17 @@ import numpy as np
 
 from quadlab.errors import LogError
 from quadlab.gaits.schedule import ContactSchedule
+from quadlab.geometry.curve import Curve
+from quadlab.geometry.lip_curve import LipCurve
 from quadlab.geometry.rotations import Array
 from quadlab.geometry.splines import PiecewisePolynomial
-from quadlab.planners.plan import MotionPlan, PlanReport, PlanVerdict
-from quadlab.robots.legs import LEGS
+from quadlab.planners.plan import BaseMotion, MotionPlan, PlanReport, PlanVerdict
+from quadlab.robots.legs import foot_names
 
 FORMAT = "quadlab motion plan"
 VERSION = 1
 _CURVES = ("com", "heading", "cop")
+_BASE = ("times_s", "positions", "quats_wxyz")
 
 
 def save_plan(plan: MotionPlan, path: Path | str) -> None:
@@ -48,10 +51,13 @@ def plan_to_bytes(plan: MotionPlan) -> bytes:
         "contacts": plan.schedule.contacts,
     }
     for name in _CURVES:
-        curve: PiecewisePolynomial = getattr(plan, name)
-        arrays[f"{name}_knots"], arrays[f"{name}_coefficients"] = curve.knots, curve.coefficients
-    for leg, footholds in zip(LEGS, plan.footholds, strict=True):
+        arrays |= _curve_arrays(name, getattr(plan, name))
+    for leg, footholds in zip(foot_names(len(plan.footholds)), plan.footholds, strict=True):
         arrays[f"footholds_{leg}"] = footholds
+    for leg, yaws in zip(foot_names(len(plan.foot_yaws)), plan.foot_yaws, strict=True):
+        arrays[f"yaws_{leg}"] = yaws
+    if plan.base is not None:
+        arrays |= {f"base_{name}": getattr(plan.base, name) for name in _BASE}
     buffer = io.BytesIO()
     np.savez(buffer, **arrays)
     return buffer.getvalue()
@@ -81,15 +87,33 @@ def bytes_to_plan(data: bytes, source: str = "plan") -> MotionPlan:
 
 
 def _plan(arrays: dict[str, Array], header: dict[str, Any]) -> MotionPlan:
-    com, heading, cop = (
-        PiecewisePolynomial(arrays[f"{name}_knots"], arrays[f"{name}_coefficients"]) for name in _CURVES
-    )
+    feet = foot_names(arrays["contacts"].shape[1])
+    com, heading, cop = (_curve(name, arrays) for name in _CURVES)
     return MotionPlan(
         schedule=ContactSchedule(arrays["durations_s"], arrays["contacts"].astype(bool)),
         com=com,
         heading=heading,
         cop=cop,
-        footholds=tuple(arrays[f"footholds_{leg}"] for leg in LEGS),
+        footholds=tuple(arrays[f"footholds_{leg}"] for leg in feet),
         report=PlanReport(**header["report"]),
         verdict=PlanVerdict(**header["verdict"]),
+        foot_yaws=tuple(arrays[f"yaws_{leg}"] for leg in feet if f"yaws_{leg}" in arrays),
+        base=BaseMotion(*(arrays[f"base_{name}"] for name in _BASE)) if "base_times_s" in arrays else None,
     )
+
+
+def _curve_arrays(name: str, curve: Curve) -> dict[str, Array]:
+    """Return the arrays of one curve; what it consists of follows from which of them there are."""
+    match curve:
+        case PiecewisePolynomial():
+            return {f"{name}_knots": curve.knots, f"{name}_coefficients": curve.coefficients}
+        case LipCurve():
+            rate = np.array(curve.rate)
+            return {f"{name}_knots": curve.knots, f"{name}_pendulum": curve.coefficients, f"{name}_rate": rate}
+    raise TypeError(f"{name}: a {type(curve).__name__} cannot be written, only PiecewisePolynomial and LipCurve")
+
+
+def _curve(name: str, arrays: dict[str, Array]) -> Curve:
+    if f"{name}_rate" in arrays:
+        return LipCurve(arrays[f"{name}_knots"], arrays[f"{name}_pendulum"], float(arrays[f"{name}_rate"]))
+    return PiecewisePolynomial(arrays[f"{name}_knots"], arrays[f"{name}_coefficients"])

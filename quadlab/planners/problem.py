@@ -18,7 +18,7 @@ class PlanningModel:
 
     Attributes:
         com_height: height of the centre of mass over the ground in [m].
-        nominal_feet: foot positions relative to the CoM in the heading frame, (4, 2) in [m].
+        nominal_feet: foot positions relative to the CoM in the heading frame, (F, 2) in [m]; F = 4 for a quadruped.
         reach: half size (forward, sideways) of the box around the nominal position that a foot may use, (2,) in [m].
         gravity: in [m/s^2].
         foot_vertices: corners of each foot in its own frame, (v, 2) in [m]; one at the origin for point feet.
@@ -39,7 +39,7 @@ class PlanStart:
         com_position: (2,) in [m].
         com_velocity: (2,) in [m/s].
         yaw: heading of the base in [rad].
-        feet: contact points, (4, 3) in [m].
+        feet: contact points, or frames of longer feet at the given yaw, (F, 3) in [m].
         state: the whole state, for planners that move joints; None if only the point mass is known.
     """
 

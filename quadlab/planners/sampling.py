@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quadlab.geometry.curve import Curve
 from quadlab.geometry.polygons import convex_hull
 from quadlab.geometry.rotations import Array
-from quadlab.geometry.splines import PiecewisePolynomial
 from quadlab.planners.plan import MotionPlan
 from quadlab.planners.swing import swing_blend
 
@@ -36,21 +36,22 @@ def dense_samples(knots: Sequence[Array], duration_s: float, period_s: float) ->
     return Samples(np.concatenate(times), np.repeat(0.5 * (merged[:-1] + merged[1:]), counts))
 
 
-def evaluate(curve: PiecewisePolynomial, samples: Samples, derivative: int = 0) -> Array:
+def evaluate(curve: Curve, samples: Samples, derivative: int = 0) -> Array:
     """Return a curve or one of its time derivatives at all samples, (s, d); at rest outside its span."""
     piece = np.clip(np.searchsorted(curve.knots, samples.inside) - 1, 0, len(curve.knots) - 2)
     local = np.clip(samples.times, curve.knots[0], curve.knots[-1]) - curve.knots[piece]
-    values = _horner(_differentiate(curve.coefficients, derivative)[piece], local)
+    values = curve.on_pieces(piece, local, derivative)
     resting = (samples.inside < curve.knots[0]) | (samples.inside > curve.knots[-1])
     return np.where(resting[:, None], 0.0, values) if derivative else values
 
 
-def largest_jump(curve: PiecewisePolynomial, derivative: int) -> float:
+def largest_jump(curve: Curve, derivative: int) -> float:
     """Return the largest discontinuity of a time derivative at the inner knots of a curve."""
     if len(curve.knots) < 3:
         return 0.0
-    table = _differentiate(curve.coefficients, derivative)
-    return largest_norm(table[1:, 0] - _horner(table[:-1], np.diff(curve.knots)[:-1]))
+    before = np.arange(len(curve.knots) - 2)
+    ends = curve.on_pieces(before, np.diff(curve.knots)[:-1], derivative)
+    return largest_norm(curve.on_pieces(before + 1, np.zeros(len(before)), derivative) - ends)
 
 
 def largest_norm(rows: Array) -> float:
@@ -72,6 +73,13 @@ def foot_positions(plan: MotionPlan, leg: int, samples: Samples) -> Array:
     return (1.0 - blend) * footholds[landed] + blend * footholds[begun]
 
 
+def turned_vertices(vertices: Array, yaws: Array) -> Array:
+    """Return the vertices of a foot (v, 2) turned by ``yaws`` of any shape in [rad], (..., v, 2) in [m]."""
+    cosine, sine = np.cos(yaws)[..., None], np.sin(yaws)[..., None]
+    forward, left = vertices[:, 0], vertices[:, 1]
+    return np.stack([cosine * forward - sine * left, sine * forward + cosine * left], axis=-1)
+
+
 def distances_outside(points: Array, corners: Array) -> Array:
     """Return how far each of ``points`` (s, 2) lies outside the hull of ``corners`` (n, 2), (s,) in [m]; 0 inside."""
     hull = convex_hull(corners)
@@ -83,17 +91,3 @@ def distances_outside(points: Array, corners: Array) -> Array:
     turn = edges[:, 0] * relative[:, :, 1] - edges[:, 1] * relative[:, :, 0]
     inside = (turn >= 0.0).all(axis=1) & (len(hull) >= 3)
     return np.where(inside, 0.0, distance)
-
-
-def _differentiate(coefficients: Array, derivative: int) -> Array:
-    for _ in range(derivative):
-        coefficients = coefficients[:, 1:] * np.arange(1, coefficients.shape[1])[None, :, None]
-    return coefficients
-
-
-def _horner(coefficients: Array, local: Array) -> Array:
-    """Return polynomials (s, degree + 1, d) at local times (s,), (s, d)."""
-    value = coefficients[:, -1]
-    for power in range(coefficients.shape[1] - 2, -1, -1):
-        value = value * local[:, None] + coefficients[:, power]
-    return value

@@ -6,7 +6,7 @@ from quadlab.errors import PlanningProblemError
 from quadlab.gaits.schedule import BoolArray, ContactSchedule
 from quadlab.geometry.rotations import Array
 from quadlab.planners.problem import PlanningModel, PlanningProblem, PlanStart, Waypoints
-from quadlab.robots.legs import LEG_COUNT, LEGS
+from quadlab.robots.legs import foot_names
 
 _POSE_TOLERANCE = 1e-6  # [m], [rad]
 _TIME_TOLERANCE = 1e-6  # [s]
@@ -18,9 +18,10 @@ def validate_problem(problem: PlanningProblem) -> None:
     Raises:
         PlanningProblemError: with the first thing that is wrong.
     """
+    feet = len(problem.model.nominal_feet)
     _validate_model(problem.model)
-    _validate_start(problem.start)
-    _validate_schedule(problem.schedule)
+    _validate_start(problem.start, feet)
+    _validate_schedule(problem.schedule, feet)
     _validate_waypoints(problem.waypoints, problem.schedule.duration_s)
     start = np.append(problem.start.com_position, problem.start.yaw)
     if np.abs(problem.waypoints.poses[0] - start).max() > _POSE_TOLERANCE:
@@ -41,7 +42,7 @@ def farthest_travel(schedule: ContactSchedule, model: PlanningModel, turn_rad: f
     stances = 0
     phase, phases = 0, len(schedule.contacts)
     while phase < phases:
-        lengths = [_stance_length(schedule.contacts[phase:, leg]) for leg in range(LEG_COUNT)]
+        lengths = [_stance_length(schedule.contacts[phase:, leg]) for leg in range(schedule.contacts.shape[1])]
         phase += max(lengths)
         stances += 1
     arm = float(np.linalg.norm(model.nominal_feet, axis=1).max())
@@ -62,7 +63,10 @@ def _finite(name: str, array: Array, shape: tuple[int, ...]) -> None:
 
 
 def _validate_model(model: PlanningModel) -> None:
-    _finite("model.nominal_feet", model.nominal_feet, (LEG_COUNT, 2))
+    if not len(model.nominal_feet) or not len(model.foot_vertices):
+        raise PlanningProblemError("model: nominal_feet or foot_vertices is empty, expected one foot and one vertex")
+    _finite("model.nominal_feet", model.nominal_feet, (len(model.nominal_feet), 2))
+    _finite("model.foot_vertices", model.foot_vertices, (len(model.foot_vertices), 2))
     _finite("model.reach", model.reach, (2,))
     for name, value in (("com_height", model.com_height), ("gravity", model.gravity)):
         if not 0.0 < value < np.inf:
@@ -71,22 +75,22 @@ def _validate_model(model: PlanningModel) -> None:
         raise PlanningProblemError(f"model.reach: {model.reach} is not positive")
 
 
-def _validate_start(start: PlanStart) -> None:
+def _validate_start(start: PlanStart, feet: int) -> None:
     _finite("start.com_position", start.com_position, (2,))
     _finite("start.com_velocity", start.com_velocity, (2,))
     _finite("start.yaw", np.asarray(start.yaw), ())
-    _finite("start.feet", start.feet, (LEG_COUNT, 3))
+    _finite("start.feet", start.feet, (feet, 3))
 
 
-def _validate_schedule(schedule: ContactSchedule) -> None:
+def _validate_schedule(schedule: ContactSchedule, feet: int) -> None:
     phases = len(schedule.durations_s)
     if phases == 0:
         raise PlanningProblemError("schedule: has no phase")
     _finite("schedule.durations_s", schedule.durations_s, (phases,))
-    if np.shape(schedule.contacts) != (phases, LEG_COUNT):
+    if np.shape(schedule.contacts) != (phases, feet):
         raise PlanningProblemError(
-            f"schedule.contacts: has shape {np.shape(schedule.contacts)}, expected {(phases, LEG_COUNT)} "
-            f"(one row a phase, columns {', '.join(LEGS)})"
+            f"schedule.contacts: has shape {np.shape(schedule.contacts)}, expected {(phases, feet)} "
+            f"(one row a phase, columns {', '.join(foot_names(feet))})"
         )
     for phase, duration in enumerate(schedule.durations_s):
         if duration <= 0.0:

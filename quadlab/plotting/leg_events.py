@@ -1,6 +1,5 @@
 """What the log says happened to a leg, e.g. an early touch-down."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
@@ -34,14 +33,14 @@ class LegEvent:
 
 
 def leg_events(events: pd.DataFrame) -> tuple[LegEvent, ...]:
-    """Return the events of legs among those of a log (``TrialLog.events``); others have no place at a leg."""
-    times = events.index.to_numpy(float)
-    return tuple(_found(zip(times.tolist(), events["message"], strict=True)))
+    """Return the events of legs among those of a log (``TrialLog.events``)."""
+    times = events.index.to_numpy(float).tolist()
+    found = (leg_event(time_s, message) for time_s, message in zip(times, events["message"], strict=True))
+    return tuple(event for event in found if event is not None)
 
 
-def _found(entries: Iterable[tuple[float, str]]) -> Iterable[LegEvent]:
-    for time_s, message in entries:
-        name, _, what = message.partition(" ")
-        kind = next((kind for kind in LegEventKind if what.startswith(kind.value)), None)
-        if name in LEGS and kind is not None:
-            yield LegEvent(time_s, leg_index(name), kind)
+def leg_event(time_s: float, message: str) -> LegEvent | None:
+    """Return what ``message`` says about a leg; None if it is about something else or of no kind that is marked."""
+    name, _, what = message.partition(" ")
+    kind = next((kind for kind in LegEventKind if what.startswith(kind.value)), None)
+    return LegEvent(time_s, leg_index(name), kind) if name in LEGS and kind is not None else None

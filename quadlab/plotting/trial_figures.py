@@ -19,7 +19,9 @@ from quadlab.plotting.trial_view import TrialView, load_trial_view
 
 PLOTS_DIR = "plots"
 
-FIGURES: dict[str, Callable[[TrialView], Figure]] = {
+DrawTrial = Callable[[TrialView], Figure]
+
+FIGURES: dict[str, DrawTrial] = {
     "plan_top_down": top_down_figure,
     "com": com_figure,
     "base": base_figure,
@@ -47,12 +49,13 @@ def plot_trial(directory: Path, output: Path | None = None) -> list[Path]:
     view = load_trial_view(directory)
     folder = output if output is not None else directory / PLOTS_DIR
     paths = save_figure(overview_figure(view), folder, "overview", ["png"])
-    for name, draw in FIGURES.items():
-        if name not in _missing(view):
-            paths += save_figure(draw(view), folder, name, PAPER_FORMATS)
+    for name, draw in figures_of(view).items():
+        paths += save_figure(draw(view), folder, name, PAPER_FORMATS)
     return paths
 
 
-def _missing(view: TrialView) -> set[str]:
+def figures_of(view: TrialView) -> dict[str, DrawTrial]:
+    """Return those of ``FIGURES`` for which the log has the data."""
     tables = {"timing": view.log.timing, "levels": view.log.levels}
-    return {name for name, table in tables.items() if table.columns.empty}
+    missing = {name for name, table in tables.items() if table.columns.empty}
+    return {name: draw for name, draw in FIGURES.items() if name not in missing}

@@ -109,6 +109,9 @@ def _log_path(directory: Path) -> Path:
     part = part_path(path)
     if part.is_file():
         raise LogError(f"{directory}: no {LOG_FILE}, but a trial that did not end; run 'quadlab recover {part}'")
+    if (directory / RESULT_FILE).is_file():
+        result = read_result(directory)
+        raise LogError(f"{directory}: no {LOG_FILE}, nothing was recorded: {result.status} ({result.status_reason})")
     if not directory.is_dir():
         raise LogError(f"{directory}: no such directory; expected that of a trial, with a {LOG_FILE} in it")
     present = ", ".join(sorted(entry.name for entry in directory.iterdir())) or "nothing"
@@ -123,7 +126,10 @@ def _attachment(log: TrialLog, name: str) -> bytes:
 
 def _torque_limits(urdf: bytes, robot: RobotConfig) -> Array:
     """Return the limits in the order of ``JOINT_NAMES``, (12,) in [N m]."""
-    limits = {joint.get("name"): joint.find("limit") for joint in ET.fromstring(urdf).iter("joint")}
+    limits = {joint.get("name"): joint.find("limit") for joint in ET.fromstring(urdf).findall("joint")}
+    efforts = {name: limit.get("effort") for name, limit in limits.items() if limit is not None}
     names = [template.format(leg=robot.legs[leg]) for leg in LEGS for template in robot.joints]
-    found = [limits.get(name) for name in names]
-    return np.array([np.inf if limit is None else float(limit.get("effort", "inf")) for limit in found])
+    missing = [name for name in names if efforts.get(name) is None]
+    if missing:
+        raise LogError(f"{_URDF}: joints without a torque limit: {', '.join(missing)}")
+    return np.array([float(efforts[name] or 0.0) for name in names])

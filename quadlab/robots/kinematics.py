@@ -48,6 +48,8 @@ class Kinematics:
         contact_bias: J_dot u of these Jacobians, (4, 3) in [m/s^2]. The lowest point of a rolling sphere wanders
             over its surface: J u_dot + J_dot u = 0 keeps the foot rolling without slip, and for that reason the
             bias has no centripetal term towards the sphere's centre.
+        joint_positions: (12,) in [rad], order ``JOINT_NAMES``.
+        leg_joint_axes: axes of HAA, HFE and KFE as columns for each leg, (4, 3, 3).
         hip_positions: origins of the HAA joints, (4, 3) in [m].
     """
 
@@ -71,4 +73,6 @@ class Kinematics:
     foot_bias: Array
     contact_jacobians: Array
     contact_bias: Array
+    joint_positions: Array
+    leg_joint_axes: Array
     hip_positions: Array

@@ -7,7 +7,7 @@ import pinocchio as pin
 
 from quadlab.geometry.rotations import Array, skew
 from quadlab.robots.kinematics import BASE_ANGULAR, BASE_LINEAR, JOINTS, VELOCITY_SIZE, Kinematics
-from quadlab.robots.legs import LEG_COUNT
+from quadlab.robots.legs import LEG_COUNT, joints_of
 from quadlab.robots.pinocchio_model import PinocchioModel
 from quadlab.robots.state import RobotState
 
@@ -69,6 +69,7 @@ class KinematicsSolver:
             base_rotation=rotation,
             base_linear_velocity=state.linear_velocity_base_in_world,
             base_angular_velocity=rotation @ state.angular_velocity_base_in_base,
+            joint_positions=state.joint_positions,
             hip_positions=np.array([data.oMi[joint].translation for joint in self._indexed.hip_joints]),
             **_base_terms(rotation, v),
             **self._foot_terms(v[order]),
@@ -85,7 +86,9 @@ class KinematicsSolver:
             jacobians[leg] = pin.getFrameJacobian(model, data, frame, axes)[:, self._indexed.order]
             accelerations[leg] = pin.getFrameClassicalAcceleration(model, data, frame, axes).vector
         linear, angular = jacobians[:, :3], jacobians[:, 3:]
+        leg_axes = [angular[leg][:, JOINTS][:, joints_of(leg)] for leg in range(LEG_COUNT)]
         return {
+            "leg_joint_axes": np.stack(leg_axes),
             "foot_centers": centers,
             "foot_positions": centers + self._to_contact,
             "foot_velocities": linear @ velocity,

@@ -22,3 +22,8 @@ def leg_index(leg: str) -> int:
 def joints_of(leg: int) -> slice:
     """Return the slice of leg number ``leg`` in arrays over the 12 joints."""
     return slice(JOINTS_PER_LEG * leg, JOINTS_PER_LEG * (leg + 1))
+
+
+def foot_names(count: int) -> tuple[str, ...]:
+    """Return what ``count`` feet are called: the legs of a quadruped, numbers otherwise."""
+    return LEGS if count == LEG_COUNT else tuple(f"foot {number}" for number in range(count))

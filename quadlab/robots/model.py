@@ -82,6 +82,12 @@ class RobotModel:
         return float(self._nominal_kinematics.com_position[2])
 
     @property
+    def nominal_com_in_base(self) -> Array:
+        """Centre of mass relative to the base origin in the nominal stance, (3,) in [m]."""
+        nominal = self._nominal_kinematics
+        return np.asarray(nominal.com_position - nominal.base_position)
+
+    @property
     def nominal_feet_in_com(self) -> Array:
         """Horizontal foot positions relative to the centre of mass in the nominal stance, (4, 2) in [m]."""
         nominal = self._nominal_kinematics

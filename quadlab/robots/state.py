@@ -53,11 +53,41 @@ class RobotState:
 
 
 @dataclass(frozen=True)
+class JointDrive:
+    """A PD law that the drives close faster than the controller, around a motion of constant acceleration.
+
+    Attributes:
+        positions, velocities, accelerations: at the start of the control period, (12,) in [rad], [rad/s], [rad/s^2].
+        proportional: in [N m/rad].
+        derivative: in [N m s/rad].
+    """
+
+    positions: Array
+    velocities: Array
+    accelerations: Array
+    proportional: float
+    derivative: float
+
+    def torques(self, elapsed_s: float, positions: Array, velocities: Array) -> Array:
+        """Return the correction, (12,) in [N m].
+
+        Args:
+            elapsed_s: since the start of the control period in [s].
+            positions, velocities: measured, (12,) in [rad], [rad/s].
+        """
+        position = self.positions + self.velocities * elapsed_s + 0.5 * self.accelerations * elapsed_s**2
+        velocity = self.velocities + self.accelerations * elapsed_s
+        return self.proportional * (position - positions) + self.derivative * (velocity - velocities)
+
+
+@dataclass(frozen=True)
 class JointCommand:
     """What a controller asks of the joints for one control period.
 
     Attributes:
         torques: (12,) in [N m], order ``JOINT_NAMES``.
+        drive: added to the torques at the rate of the physics; None for torques alone.
     """
 
     torques: Array
+    drive: JointDrive | None = None

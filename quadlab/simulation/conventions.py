@@ -71,6 +71,10 @@ class MujocoMap:
             foot_forces_in_world=-data.sensordata[self.foot_forces],
         )
 
+    def joints(self, data: Any) -> tuple[Array, Array]:
+        """Return joint angles and velocities, (12,) each in [rad], [rad/s]."""
+        return data.qpos[self.qpos], data.qvel[self.qvel]
+
     def velocity_transform(self, quat_wxyz: Array) -> Array:
         """Return G, (18, 18), with qvel = G u for the generalised velocity u of ``Kinematics``."""
         transform = np.zeros((VELOCITY_SIZE, VELOCITY_SIZE))
@@ -78,6 +82,10 @@ class MujocoMap:
         transform[3:6, BASE_ANGULAR] = np.eye(3)
         transform[self.qvel, np.arange(JOINTS.start, JOINTS.stop)] = 1.0
         return transform
+
+
+GYROSCOPE, ACCELEROMETER = "gyroscope", "accelerometer"
+"""Names of the inertial sensors, at the base origin in base axes."""
 
 
 def foot_force_sensor(leg: int) -> str:

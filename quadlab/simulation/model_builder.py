@@ -9,7 +9,7 @@ import numpy as np
 from quadlab.robots.model import RobotModel
 from quadlab.robots.pinocchio_model import foot_links_in_urdf
 from quadlab.simulation.collision import ROBOT_CONTACTS, TERRAIN_CONTACTS, add_collision_shapes
-from quadlab.simulation.conventions import foot_force_sensor, foot_geom
+from quadlab.simulation.conventions import ACCELEROMETER, GYROSCOPE, foot_force_sensor, foot_geom
 from quadlab.simulation.links import LinkPlacement, link_placements
 from quadlab.simulation.terrain import Ground
 
@@ -131,8 +131,8 @@ def _add_imu(spec: Any, robot: RobotModel) -> None:
     """Add gyroscope, accelerometer and orientation sensors at the base's origin, in base axes."""
     spec.body(robot.config.base_link).add_site(name=IMU_SITE)
     for name, sensor_type in (
-        ("gyroscope", mujoco.mjtSensor.mjSENS_GYRO),
-        ("accelerometer", mujoco.mjtSensor.mjSENS_ACCELEROMETER),
+        (GYROSCOPE, mujoco.mjtSensor.mjSENS_GYRO),
+        (ACCELEROMETER, mujoco.mjtSensor.mjSENS_ACCELEROMETER),
         ("orientation", mujoco.mjtSensor.mjSENS_FRAMEQUAT),
     ):
         spec.add_sensor(name=name, type=sensor_type, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=IMU_SITE)

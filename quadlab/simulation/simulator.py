@@ -11,11 +11,12 @@ from quadlab.errors import ConfigurationError, QuadlabError
 from quadlab.geometry.rotations import Array
 from quadlab.robots.legs import JOINT_NAMES
 from quadlab.robots.model import RobotModel
-from quadlab.robots.state import JointCommand, RobotState
+from quadlab.robots.state import JointCommand, JointDrive, RobotState
 from quadlab.simulation.conventions import MujocoMap
 from quadlab.simulation.model_builder import build_spec, link_placements
 from quadlab.simulation.push import BASE_BODY, PushConfig, ScheduledPush
 from quadlab.simulation.scenario import ScenarioConfig, initial_state
+from quadlab.simulation.sensors import ImuIntegrator, ImuSample
 from quadlab.simulation.terrain import build_ground
 from quadlab.simulation.timing import check_period
 
@@ -49,6 +50,7 @@ class Simulator:
         self.model: Any = spec.compile()
         self._data: Any = mujoco.MjData(self.model)
         self._map = MujocoMap.of(self.model, robot)
+        self._imu = ImuIntegrator.of(self.model)
         self._pushes = tuple(self._schedule(push) for push in scenario.pushes)
         self._initial_state = initial_state(robot, scenario.initial_perturbation, seed)
         self._step = 0
@@ -71,6 +73,7 @@ class Simulator:
         """
         mujoco.mj_resetData(self.model, self._data)
         self._step = 0
+        self._imu.restart()
         self._map.write_state(self._data, self._initial_state)
         mujoco.mj_forward(self.model, self._data)
         for contact in self._data.contact:
@@ -89,6 +92,10 @@ class Simulator:
         """Torques of the last command after clipping to the limits, (12,) in [N m]."""
         return np.asarray(self._data.ctrl[self._map.ctrl])
 
+    def imu(self) -> ImuSample:
+        """Return the mean rates of the inertial unit during the last ``advance``; at the start the present ones."""
+        return self._imu.sample(self._data)
+
     def read(self) -> RobotState:
         """Return the true state; the foot forces are those under the torques and pushes of the last step.
 
@@ -98,7 +105,7 @@ class Simulator:
         return self._map.read_state(self._data, self.time_s)
 
     def advance(self, command: JointCommand, duration_s: float) -> None:
-        """Hold the torques of ``command``, clipped to the limits, for ``duration_s`` in [s].
+        """Hold the torques of ``command``, clipped to the limits, for ``duration_s`` in [s]; drives act every step.
 
         Raises:
             ConfigurationError: if ``duration_s`` is not a whole multiple of the timestep.
@@ -109,11 +116,18 @@ class Simulator:
         if not np.isfinite(torques).all():
             names = [name for name, torque in zip(JOINT_NAMES, torques, strict=True) if not math.isfinite(torque)]
             raise QuadlabError(f"torque command is not finite: {', '.join(names)}")
-        self._data.ctrl[self._map.ctrl] = np.clip(torques, -self._robot.torque_limits, self._robot.torque_limits)
-        for _ in range(steps):
+        self._imu.restart()
+        for step in range(steps):
+            total = torques if command.drive is None else torques + self._drive_torques(command.drive, step)
+            self._data.ctrl[self._map.ctrl] = np.clip(total, -self._robot.torque_limits, self._robot.torque_limits)
             self._apply_pushes()
             mujoco.mj_step(self.model, self._data)
+            self._imu.add(self._data)
             self._step += 1
+
+    def _drive_torques(self, drive: JointDrive, step: int) -> Array:
+        positions, velocities = self._map.joints(self._data)
+        return drive.torques(step * self._timestep_s, positions, velocities)
 
     def _apply_pushes(self) -> None:
         if not self._pushes:
@@ -148,4 +162,5 @@ class Simulator:
         """Return to a state that ``integration_state`` gave, time included."""
         mujoco.mj_setState(self.model, self._data, state, _STATE)
         self._step = round(self._data.time / self._timestep_s)
+        self._imu.restart()
         return self.read()

@@ -12,7 +12,7 @@ from quadlab.configuration import StrictModel
 from quadlab.errors import ConfigurationError
 from quadlab.paths import CONF_DIR
 from quadlab.trials.config import RunOptions, TrialConfig
-from quadlab.trials.override_problems import COMPOSITION_ERRORS, composition_problem
+from quadlab.trials.override_problems import COMPOSITION_ERRORS, UNTYPED_COMPOSITION_ERRORS, composition_problem
 from quadlab.trials.problems import validation_problems
 
 ROOT_NAME = "trial"
@@ -41,7 +41,7 @@ def compose_document(overrides: Sequence[str] = ()) -> DictConfig:
     try:
         with initialize_config_dir(version_base="1.3", config_dir=str(CONF_DIR)):
             return compose(ROOT_NAME, overrides=list(overrides))
-    except COMPOSITION_ERRORS as error:
+    except (*COMPOSITION_ERRORS, *UNTYPED_COMPOSITION_ERRORS) as error:
         raise ConfigurationError(composition_problem(error)) from error
 
 

@@ -8,10 +8,14 @@ from pydantic import Field, StringConstraints, model_validator
 
 from quadlab.configuration import Positive, StrictModel
 from quadlab.controllers import hierarchical as _hierarchical  # noqa: F401
+from quadlab.controllers import projected_inverse_dynamics as _projected_inverse_dynamics  # noqa: F401
+from quadlab.controllers import weighted as _weighted  # noqa: F401
 from quadlab.errors import ConfigurationError
+from quadlab.estimation import ekf as _ekf  # noqa: F401
 from quadlab.estimation import truth as _truth  # noqa: F401
 from quadlab.gaits.gait import GaitConfig, stride_counts
 from quadlab.planners.command import CommandConfig
+from quadlab.planners.kinematic_sqp import planner as _kinematic_sqp  # noqa: F401
 from quadlab.planners.vertex_zmp import planner as _vertex_zmp  # noqa: F401
 from quadlab.robots.config import RobotConfig
 from quadlab.robots.description import load_urdf_text
@@ -39,6 +43,11 @@ class PartConfig(Protocol):
 
 class ControllerConfig(PartConfig, Protocol):
     """What the configurations of all controllers have in common."""
+
+    @property
+    def name(self) -> str:
+        """What results call it."""
+        ...
 
     @property
     def rate_hz(self) -> float:

@@ -15,7 +15,7 @@ from omegaconf import DictConfig
 
 from quadlab.errors import QuadlabError
 from quadlab.paths import CONF_DIR
-from quadlab.trials.override_problems import COMPOSITION_ERRORS, composition_problem
+from quadlab.trials.override_problems import COMPOSITION_ERRORS, UNTYPED_COMPOSITION_ERRORS, composition_problem
 
 EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
@@ -41,7 +41,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     def task(document: DictConfig) -> None:
         """Run one job; a sweep learns of a failure by an exception."""
-        codes.append(run_document(document))
+        codes.append(EXIT_FAILED)
+        codes[-1] = run_document(document)
         if codes[-1] != EXIT_OK and HydraConfig.get().mode == RunMode.MULTIRUN:
             raise JobFailedError(codes[-1])
 
@@ -53,6 +54,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _complain("interrupted")
         return EXIT_INTERRUPTED
     except COMPOSITION_ERRORS as error:
+        _complain(composition_problem(error))
+        return EXIT_USAGE
+    except UNTYPED_COMPOSITION_ERRORS as error:
+        if codes:  # a job had begun: this is no mistake in an override
+            raise
         _complain(composition_problem(error))
         return EXIT_USAGE
     return max(codes, default=EXIT_OK)

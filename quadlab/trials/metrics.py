@@ -1,4 +1,9 @@
-"""What a trial amounts to in numbers, collected tick by tick."""
+"""What a trial amounts to in numbers, collected tick by tick.
+
+Errors are measured from the truth, against references that live in the world the controller believes in. If its state is
+estimated, the drift of the estimate (position and heading cannot be observed) is a part of them;
+``EstimationMetrics`` tells how large it is and what error the controller saw.
+"""
 
 import hashlib
 import math
@@ -48,7 +53,7 @@ class TrialMetrics:
         Args:
             state: true state at its start.
             command: torques as applied (within the limits).
-            telemetry: of the controller.
+            telemetry: of the controller, its measured quantities replaced by the true ones.
             physics_state: everything the simulator integrates; goes into the hash.
         """
         self._first = self._first or state

@@ -8,8 +8,11 @@ from omegaconf.errors import OmegaConfBaseException
 
 from quadlab.trials.problems import suggestion
 
-COMPOSITION_ERRORS = (HydraException, OmegaConfBaseException, yaml.YAMLError, ValueError)
-"""What Hydra raises for wrong overrides and wrong files; ValueError for an override without a name."""
+COMPOSITION_ERRORS = (HydraException, OmegaConfBaseException, yaml.YAMLError)
+"""What Hydra raises for wrong overrides and wrong files."""
+
+UNTYPED_COMPOSITION_ERRORS = (ValueError, TypeError)
+"""What it raises for an override without a name, and for a word where the number of a list entry belongs."""
 
 
 def composition_problem(error: Exception) -> str:
@@ -23,7 +26,7 @@ def composition_problem(error: Exception) -> str:
     if isinstance(error, OverrideParseException):
         return f"{error.override}: cannot be read as key=value ({_first_line(error.message)})"
     if isinstance(error.__cause__, OmegaConfBaseException):
-        return _unknown_key(error.__cause__) or _first_line(error)
+        return _unknown_key(error.__cause__) or f"{_first_line(error)}: {_first_line(error.__cause__)}"
     if isinstance(error, yaml.MarkedYAMLError) and error.problem_mark:
         return f"{error.problem_mark.name}, line {error.problem_mark.line + 1}: {error.problem}"
     return _first_line(error)

@@ -42,7 +42,8 @@ class TrialResult(StrictModel):
         survived_s: until the fall or the end, in [s].
         distance_m: horizontal distance of the base from start to end, in [m].
         mean_speed_mps: distance over survived time in [m/s].
-        com_error_rms_mm, com_error_max_mm: horizontal distance of the CoM from its aligned reference, in [mm].
+        com_error_rms_mm, com_error_max_mm: horizontal distance of the true CoM from its aligned reference, in [mm]; if
+            the state is estimated, its drift included.
         base_height_rms_mm: error of the base height, in [mm].
         roll_pitch_rms_deg: error of roll and pitch together, in [deg].
         foot_slip_max_mm: farthest that a standing foot slid in one stance, in [mm].
@@ -53,6 +54,15 @@ class TrialResult(StrictModel):
         planning_iterations: of the planner's solver.
         control_tick_median_us, control_tick_p99_us: computing time of a control tick in [us].
         control_fallbacks: ticks in which the controller's solver failed and the fallback was used.
+        com_error_believed_rms_mm, com_error_believed_max_mm: the CoM error that the controller believed in, in [mm];
+            like all that follow to ``estimate_update_median_us`` null if it was given the truth.
+        estimate_position_drift_mm, estimate_yaw_drift_deg: of the estimate at the end, in [mm] and [deg]; position and
+            heading cannot be observed.
+        estimate_roll_pitch_rms_deg, estimate_roll_pitch_max_deg: error of estimated roll and pitch together, in [deg].
+        estimate_velocity_rms_mps: error of the estimated base velocity in base axes, in [m/s].
+        estimate_innovation_ratio: mean normalised innovation squared over its degrees of freedom; 1 if consistent.
+        estimate_outliers: measurements of standing feet that the filter refused.
+        estimate_update_median_us: computing time of an update in [us].
         real_time_factor: simulated over wall time of the whole loop.
         state_sha256: hash of the final state, equal for two runs exactly if they are identical.
     """
@@ -86,6 +96,16 @@ class TrialResult(StrictModel):
     control_tick_median_us: NonNegative | None = None
     control_tick_p99_us: NonNegative | None = None
     control_fallbacks: int | None = None
+    com_error_believed_rms_mm: NonNegative | None = None
+    com_error_believed_max_mm: NonNegative | None = None
+    estimate_position_drift_mm: NonNegative | None = None
+    estimate_yaw_drift_deg: NonNegative | None = None
+    estimate_roll_pitch_rms_deg: NonNegative | None = None
+    estimate_roll_pitch_max_deg: NonNegative | None = None
+    estimate_velocity_rms_mps: NonNegative | None = None
+    estimate_innovation_ratio: NonNegative | None = None
+    estimate_outliers: int | None = None
+    estimate_update_median_us: NonNegative | None = None
     real_time_factor: NonNegative | None = None
     state_sha256: str | None = None
 

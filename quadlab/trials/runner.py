@@ -10,16 +10,19 @@ import yaml
 
 from quadlab.configuration import part_of
 from quadlab.controllers.controller import Controller
+from quadlab.controllers.tracking_controller import build_controller
 from quadlab.planners.plan import MotionPlan
 from quadlab.robots.model import RobotModel, load_robot
 from quadlab.robots.state import JointCommand, RobotState
 from quadlab.simulation.geoms import describe_geoms
 from quadlab.simulation.simulator import Simulator
 from quadlab.trials.config import TrialConfig
+from quadlab.trials.estimation_metrics import EstimationMetrics
 from quadlab.trials.failure import fall_reason, progress_reason
 from quadlab.trials.identity import trial_id
 from quadlab.trials.manifest import MANIFEST_FILE
 from quadlab.trials.metrics import TrialMetrics
+from quadlab.trials.observer import Observer, as_it_happened
 from quadlab.trials.planning import plan_motion
 from quadlab.trials.progress import TrialProgress
 from quadlab.trials.recording.record import BodyPoses, TickRecord
@@ -50,12 +53,12 @@ def run_trial(config: TrialConfig, directory: Path, progress: TrialProgress) -> 
     """
     robot = load_robot(config.robot)
     simulator = Simulator(robot, config.scenario, config.simulation, config.seed)
-    estimator: Any = part_of("estimator", config.estimator)(config.estimator)
-    outcome = plan_motion(config, robot, estimator.update(simulator.reset()))
+    observer = Observer(config, robot, simulator)
+    outcome = plan_motion(config, robot, observer.observe(simulator.reset()).state)
     if outcome.plan is None:
         return _result(config, Ending(TrialStatus.PLANNING_FAILED, f"{outcome.status}: {outcome.reason}"), {})
-    controller: Controller = part_of("controller", config.controller)(config.controller, robot)
-    loop = ClosedLoop(config, robot, simulator, estimator, controller, outcome.plan)
+    controller = build_controller(config.controller, robot)
+    loop = ClosedLoop(config, robot, simulator, observer, controller, outcome.plan)
     progress.start(f"{robot.name} {config.gait.name}", config.duration_s)
     with _recorder(config, directory, robot, simulator, controller, outcome.plan) as recorder:
         ending = loop.run(recorder, progress)
@@ -66,7 +69,8 @@ def run_trial(config: TrialConfig, directory: Path, progress: TrialProgress) -> 
         "planning_solve_ms": report.solve_ms,
         "planning_iterations": report.iterations,
     }
-    return _result(config, ending, planning | loop.metrics.summary() | {"real_time_factor": loop.real_time_factor})
+    metrics = loop.metrics.summary() | loop.estimation.summary()
+    return _result(config, ending, planning | metrics | {"real_time_factor": loop.real_time_factor})
 
 
 class ClosedLoop:
@@ -77,16 +81,18 @@ class ClosedLoop:
         config: TrialConfig,
         robot: RobotModel,
         simulator: Simulator,
-        estimator: Any,
+        observer: Observer,
         controller: Controller,
         plan: MotionPlan,
     ) -> None:
         self.config = config
         self.plan = plan
         self.metrics = TrialMetrics(robot.mass, robot.torque_limits, controller.period_s)
+        self.estimation = EstimationMetrics()
         self.real_time_factor = 0.0
+        self._robot = robot
         self._simulator = simulator
-        self._estimator = estimator
+        self._observer = observer
         self._controller = controller
         self._standing_height = float(robot.nominal_state().position_base_in_world[2])
 
@@ -94,7 +100,7 @@ class ClosedLoop:
         """Run to the end and return how it ended."""
         began = time.perf_counter()
         state = self._simulator.read()
-        self._controller.start(self.plan, self._estimator.update(state))
+        self._controller.start(self.plan, self._observer.observe(state).state)
         ending: Ending | None = None
         for _ in range(round(self.config.duration_s / self._controller.period_s)):
             ending = self._tick(state, recorder)
@@ -111,12 +117,16 @@ class ClosedLoop:
     def _tick(self, state: RobotState, recorder: TrialRecorder) -> Ending | None:
         if not state.is_finite():
             return Ending(TrialStatus.DIVERGED, f"the state is not finite at {state.time_s:.3f} s")
-        command, telemetry = self._controller.tick(self._estimator.update(state))
+        estimate = self._observer.observe(state)
+        command, telemetry = self._controller.tick(estimate.state)
         poses = BodyPoses(*self._simulator.body_poses())
         pushes = tuple(self._simulator.active_pushes())
         self._simulator.advance(command, self._controller.period_s)
         applied = JointCommand(self._simulator.applied_torques)
-        recorder.record(TickRecord(state, applied, telemetry, pushes), poses)
+        recorder.record(TickRecord(state, applied, telemetry, pushes, estimate), poses)
+        self.estimation.add(state, estimate, telemetry)
+        if estimate.report is not None:
+            telemetry = as_it_happened(telemetry, estimate, state, self._robot.kinematics(state))
         self.metrics.add(state, applied, telemetry, self._simulator.integration_state())
         fallen = fall_reason(self.config.failure, state, telemetry, self._standing_height)
         return Ending(TrialStatus.FELL, fallen) if fallen else None
@@ -155,6 +165,7 @@ def _recorder(
         geoms=describe_geoms(simulator.model),
         attachments=files,
         metadata=words,
+        estimates=config.estimator.kind != "truth",
     )
 
 
@@ -166,7 +177,7 @@ def _result(config: TrialConfig, ending: Ending, numbers: dict[str, Any]) -> Tri
         robot=config.robot.name,
         gait=config.gait.name,
         planner=config.planner.kind,
-        controller=config.controller.kind,
+        controller=config.controller.name,
         estimator=config.estimator.kind,
         scenario=config.scenario.name,
         seed=config.seed,

@@ -9,7 +9,7 @@ import numpy as np
 import pinocchio as pin
 import yaml
 
-from quadlab.controllers.hierarchical import HierarchicalController
+from quadlab.controllers.hierarchical import HierarchicalResolver
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tracking.config import TrackingConfig
 from quadlab.gaits.gait import GaitConfig, contact_schedule
@@ -38,8 +38,8 @@ def shipped(path: str) -> Any:
     return yaml.safe_load((CONF_DIR / path).read_text())
 
 
-def controller_config(**changes: Any) -> HierarchicalController.Config:
-    return HierarchicalController.Config.model_validate({**shipped("controller/hierarchical.yaml"), **changes})
+def controller_config(**changes: Any) -> HierarchicalResolver.Config:
+    return HierarchicalResolver.Config.model_validate({**shipped("controller/hierarchical.yaml"), **changes})
 
 
 def tracking_config(**changes: dict[str, Any]) -> TrackingConfig:
@@ -127,6 +127,7 @@ def reference_at(robot: RobotModel, kinematics: Kinematics, stance: Sequence[int
         com_position=kinematics.com_position[:2],
         com_velocity=kinematics.com_velocity[:2],
         com_acceleration=np.zeros(2),
+        base_position=kinematics.base_position[:2],
         base_height=float(kinematics.base_position[2]),
         base_rotation=kinematics.base_rotation,
         base_angular_velocity=kinematics.base_angular_velocity,
@@ -136,7 +137,9 @@ def reference_at(robot: RobotModel, kinematics: Kinematics, stance: Sequence[int
         stance=~in_air,
         normal_force_limits=np.full(4, 2.0 * robot.mass * GRAVITY),
         torque_limits=robot.torque_limits,
+        joint_position_limits=robot.joint_position_limits,
         weight=robot.mass * GRAVITY,
+        standing_height=float(robot.nominal_state().position_base_in_world[2]),
         ground_axes=np.eye(3),
     )
 

@@ -16,11 +16,14 @@ from controller_cases import (
 )
 from pydantic import ValidationError
 
-from quadlab.controllers import hierarchical
-from quadlab.controllers.hierarchical import HierarchicalController
-from quadlab.controllers.hierarchy import HierarchySolution, HierarchyStatus
+from quadlab.controllers.hierarchical import HierarchicalResolver
+from quadlab.controllers.reference import ControlReference
+from quadlab.controllers.resolver import Resolution
 from quadlab.controllers.task_levels import LevelConfig, build_task
 from quadlab.controllers.telemetry import ControlTelemetry
+from quadlab.controllers.tracking_controller import build_controller
+from quadlab.geometry.rotations import Array
+from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.model import RobotModel
 
 TOO_WEAK = 0.05  # of the torque limits: not enough to carry either robot
@@ -33,7 +36,7 @@ def levels_in_order(*names: str, torque_share: float = 1.0) -> list[dict[str, An
 
 
 def standing_tick(robot: RobotModel, levels: list[dict[str, Any]], seed: int) -> ControlTelemetry:
-    controller = HierarchicalController(controller_config(levels=levels), robot)
+    controller = build_controller(controller_config(levels=levels), robot)
     controller.start(uniform_plan(robot, standing_schedule()), with_loads(robot, robot.nominal_state()))
     return controller.tick(with_loads(robot, disturbed_state(robot, seed, size=0.3)))[1]
 
@@ -63,20 +66,23 @@ def test_no_level_pays_for_a_lower_one(robot: RobotModel) -> None:
             assert more.level_residuals[name] == pytest.approx(residual, abs=1e-6)
 
 
-def test_torques_stay_and_are_counted_when_the_solver_gives_up(
-    robot: RobotModel, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    controller = HierarchicalController(controller_config(), robot)
+class GivesUp:
+    """A resolver whose solver never finishes."""
+
+    level_names = ("torque",)
+
+    def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
+        nonsense = np.full(12, 1e3)
+        return Resolution(nonsense, np.zeros(18), np.zeros((4, 3)), {"torque": 0.0}, 500, solved=False)
+
+
+def test_torques_stay_and_are_counted_when_the_solver_gives_up(robot: RobotModel) -> None:
+    controller = build_controller(controller_config(), robot)
     state = with_loads(robot, robot.nominal_state())
     controller.start(uniform_plan(robot, standing_schedule()), state)
     solved, telemetry = controller.tick(state)
     assert telemetry.fallbacks == 0
-
-    def gives_up(levels: Any, start: Any = None) -> HierarchySolution:
-        nothing: dict[str, Any] = {}
-        return HierarchySolution(np.full(12, 1e3), nothing, nothing, nothing, 500, HierarchyStatus.ITERATION_LIMIT)
-
-    monkeypatch.setattr(hierarchical, "solve_hierarchy", gives_up)
+    controller.resolver = GivesUp()
     kept, telemetry = controller.tick(with_loads(robot, disturbed_state(robot, 0)))
     np.testing.assert_array_equal(kept.torques, solved.torques)
     assert telemetry.fallbacks == 1
@@ -84,14 +90,14 @@ def test_torques_stay_and_are_counted_when_the_solver_gives_up(
 
 def test_level_names_are_reported_in_order() -> None:
     config = controller_config(levels=levels_in_order("friction", "torso", "torque"))
-    controller = HierarchicalController(config, robot_named("hyq"))
+    controller = build_controller(config, robot_named("hyq"))
     assert controller.level_names == ("friction", "torso", "torque")
 
 
 def test_every_task_of_the_shipped_levels_can_be_built() -> None:
     config = controller_config()
     assert all(hasattr(build_task(task), "rows") for level in config.levels for task in level.tasks)
-    assert HierarchicalController.Config.model_validate(config.model_dump()) == config
+    assert HierarchicalResolver.Config.model_validate(config.model_dump()) == config
 
 
 def test_unknown_task_is_named_with_the_known_ones() -> None:

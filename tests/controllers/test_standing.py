@@ -14,11 +14,11 @@ from controller_cases import (
     with_loads,
 )
 
-from quadlab.controllers.hierarchical import HierarchicalController
 from quadlab.controllers.reduced_dynamics import reduce_dynamics
 from quadlab.controllers.telemetry import ControlTelemetry, LegMode
+from quadlab.controllers.tracking_controller import build_controller
 from quadlab.errors import QuadlabError
-from quadlab.geometry.rotations import Array, rotation_log, wrap_angle
+from quadlab.geometry.rotations import matrix_to_quat, rotation_2d, rotation_log, rotation_zyx, wrap_angle
 from quadlab.robots.model import RobotModel
 from quadlab.robots.state import RobotState
 
@@ -28,7 +28,7 @@ GRAVITY_IN_WORLD = np.array([0.0, 0.0, -9.81])  # [m/s^2]
 
 def first_tick(robot: RobotModel, state: RobotState) -> ControlTelemetry:
     """The tick in which a standing controller, started in the nominal stance, first sees ``state``."""
-    controller = HierarchicalController(controller_config(), robot)
+    controller = build_controller(controller_config(), robot)
     controller.start(uniform_plan(robot, standing_schedule()), with_loads(robot, robot.nominal_state()))
     command, telemetry = controller.tick(with_loads(robot, state))
     np.testing.assert_array_equal(command.torques, telemetry.torques_desired)
@@ -96,11 +96,11 @@ def test_limits_hold_whatever_the_state(robot: RobotModel, seed: int) -> None:
 @pytest.mark.parametrize("seed", range(2))
 def test_disturbed_robot_returns_to_its_reference(robot: RobotModel, seed: int) -> None:
     """Integrated with feet that roll without slip, all errors of the torso vanish."""
-    controller = HierarchicalController(controller_config(), robot)
+    controller = build_controller(controller_config(), robot)
     state = moved_state(disturbed_state(robot, seed, size=0.5), np.array([0.02, -0.01]), 0.05)
     state = _with_feet_at_rest(robot, with_loads(robot, state))
     controller.start(uniform_plan(robot, standing_schedule()), state)
-    for _ in range(round(2.0 / controller.period_s)):
+    for _ in range(round(1.2 / controller.period_s)):
         command, telemetry = controller.tick(state)
         dynamics = reduce_dynamics(robot.kinematics(state), STANDING)
         state = integrated(robot, state, dynamics.accelerations(command.torques), controller.period_s)
@@ -116,8 +116,8 @@ def _with_feet_at_rest(robot: RobotModel, state: RobotState) -> RobotState:
     kinematics = robot.kinematics(state)
     jacobian = kinematics.contact_jacobians.reshape(12, 18)
     base = kinematics.generalized_velocity[:6]
-    joints: Array = -np.linalg.solve(jacobian[:, 6:], jacobian[:, :6] @ base)
-    return replace(state, joint_velocities=joints)
+    joints = -np.linalg.solve(jacobian[:, 6:], jacobian[:, :6] @ base)
+    return replace(state, joint_velocities=np.asarray(joints, dtype=np.float64))
 
 
 @pytest.mark.parametrize("yaw", [0.6, -2.8])
@@ -126,7 +126,7 @@ def test_torques_do_not_depend_on_where_the_world_has_its_axes(robot: RobotModel
     shift = np.array([3.0, -2.0])
     torques = []
     for angle, offset in ((0.0, np.zeros(2)), (yaw, shift)):
-        controller = HierarchicalController(controller_config(), robot)
+        controller = build_controller(controller_config(), robot)
         plan = uniform_plan(robot, standing_schedule(), (0.2, 0.1), (float(offset[0]), float(offset[1])), angle)
         controller.start(plan, moved_state(with_loads(robot, robot.nominal_state()), offset, angle))
         state = with_loads(robot, disturbed_state(robot, 2))
@@ -135,6 +135,33 @@ def test_torques_do_not_depend_on_where_the_world_has_its_axes(robot: RobotModel
     np.testing.assert_allclose(torques[1], torques[0], atol=1e-6)
 
 
+def test_plan_begins_when_it_is_started(robot: RobotModel) -> None:
+    controller = build_controller(controller_config(), robot)
+    state = replace(with_loads(robot, robot.nominal_state()), time_s=7.0)
+    controller.start(uniform_plan(robot, standing_schedule()), state)
+    assert controller.tick(state)[1].plan_time_s == 0.0
+    assert controller.tick(replace(state, time_s=7.5))[1].plan_time_s == pytest.approx(0.5)
+
+
+def test_telemetry_tells_where_plan_and_ground_are(robot: RobotModel) -> None:
+    """Pose of the plan and plane of the ground are enough to draw the plan and the ground in the world."""
+    controller = build_controller(controller_config(), robot)
+    turned = replace(robot.nominal_state(), quat_wxyz=matrix_to_quat(rotation_zyx(0.0, -0.1, 0.05)))
+    state = with_loads(robot, moved_state(turned, np.array([0.3, -0.1]), 0.4))
+    plan = uniform_plan(robot, standing_schedule())
+    controller.start(plan, state)
+    for _ in range(20):
+        _, telemetry = controller.tick(state)
+    pose, (height, *slope) = telemetry.plan_pose_in_world, telemetry.terrain_plane
+    assert np.linalg.norm(pose[:2]) > 0.01
+    turn = rotation_2d(float(pose[2]))
+    np.testing.assert_allclose(telemetry.cop_reference, turn @ plan.cop(0.0) + pose[:2], atol=1e-12)
+    com_reference = turn @ plan.com(0.0)[:2] + pose[:2]
+    np.testing.assert_allclose(telemetry.com_position_reference[:2], com_reference, atol=1e-12)
+    over_com = telemetry.foot_positions[:, :2] - telemetry.com_position[:2]
+    np.testing.assert_allclose(height + over_com @ slope, telemetry.foot_positions[:, 2], atol=1e-3)
+
+
 def test_tick_before_start_is_an_error(robot: RobotModel) -> None:
     with pytest.raises(QuadlabError, match="start"):
-        HierarchicalController(controller_config(), robot).tick(robot.nominal_state())
+        build_controller(controller_config(), robot).tick(robot.nominal_state())

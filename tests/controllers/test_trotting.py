@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from controller_cases import controller_config, gait_schedule, integrated, moved_state, uniform_plan, with_loads
 
-from quadlab.controllers.hierarchical import HierarchicalController
 from quadlab.controllers.reduced_dynamics import reduce_dynamics
 from quadlab.controllers.telemetry import ControlTelemetry, LegMode
+from quadlab.controllers.tracking_controller import TrackingController, build_controller
 from quadlab.geometry.rotations import Array, tilt_of
 from quadlab.robots.kinematics import BASE_LINEAR, Kinematics
 from quadlab.robots.model import RobotModel
@@ -47,14 +47,14 @@ def touching(kinematics: Kinematics, standing: list[int]) -> list[int]:
 
 
 @lru_cache
-def trot(robot: RobotModel) -> tuple[HierarchicalController, tuple[RobotState, ...], tuple[ControlTelemetry, ...]]:
+def trot(robot: RobotModel) -> tuple[TrackingController, tuple[RobotState, ...], tuple[ControlTelemetry, ...]]:
     """Controller after a trot on its own model, and states and telemetry of its ticks."""
-    controller = HierarchicalController(controller_config(), robot)
+    controller = build_controller(controller_config(), robot)
     states, ticks = zip(*rollout(robot, controller), strict=True)
     return controller, states, ticks
 
 
-def rollout(robot: RobotModel, controller: HierarchicalController) -> Iterator[tuple[RobotState, ControlTelemetry]]:
+def rollout(robot: RobotModel, controller: TrackingController) -> Iterator[tuple[RobotState, ControlTelemetry]]:
     state, standing = with_loads(robot, robot.nominal_state()), [0, 1, 2, 3]
     controller.start(uniform_plan(robot, gait_schedule("trot", DURATION), SPEED, com_over_feet=True), state)
     for _ in range(round(DURATION / controller.period_s)):
@@ -91,6 +91,7 @@ def test_telemetry_of_a_trot_agrees_with_itself(robot: RobotModel) -> None:
         assert np.all(tick.contact_forces_desired[~stands] == 0.0)
         assert np.all(tick.contact_forces_desired[stands, 2] > 0.0)
         assert stands.sum() >= 2
+        np.testing.assert_allclose(tick.foot_contact_velocities[stands], 0.0, atol=5e-3)
         assert np.all(np.abs(tick.torques_desired) <= robot.torque_limits * (1 + 1e-9))
         assert tick.level_residuals["friction"] < 1e-6
         assert tuple(tick.level_residuals) == controller.level_names
@@ -101,7 +102,7 @@ def test_telemetry_of_a_trot_agrees_with_itself(robot: RobotModel) -> None:
 def trotting_torques(robot: RobotModel, shift: Array, yaw: float) -> Array:
     """Torques through one swing of a robot that is held in place, all of it turned and shifted in the world."""
     schedule = gait_schedule("trot", DURATION)
-    controller = HierarchicalController(controller_config(), robot)
+    controller = build_controller(controller_config(), robot)
     plan = uniform_plan(robot, schedule, SPEED, (float(shift[0]), float(shift[1])), yaw)
     nominal = robot.nominal_state()
     controller.start(plan, moved_state(with_loads(robot, nominal), shift, yaw))

@@ -10,6 +10,8 @@ from planning_cases import COMMANDS, planner, problem, solved
 
 from quadlab.errors import PlanningProblemError
 from quadlab.gaits.schedule import ContactSchedule
+from quadlab.geometry.curve import Curve
+from quadlab.geometry.lip_curve import LipCurve
 from quadlab.geometry.polygons import distance_outside
 from quadlab.geometry.splines import PiecewisePolynomial
 from quadlab.planners.checker import check_plan
@@ -27,10 +29,12 @@ def good_plan() -> MotionPlan:
     return motion
 
 
-def bent(curve: PiecewisePolynomial, piece: int | slice, power: int, axis: int, by: float) -> PiecewisePolynomial:
+def bent(curve: Curve, piece: int | slice, power: int, axis: int, by: float) -> Curve:
+    """Return a curve with one coefficient changed; powers beyond a pendulum's straight line bend it as well."""
+    assert isinstance(curve, PiecewisePolynomial | LipCurve)
     coefficients = curve.coefficients.copy()
     coefficients[piece, power, axis] += by
-    return PiecewisePolynomial(curve.knots, coefficients)
+    return replace(curve, coefficients=coefficients)
 
 
 def moved_foothold(motion: MotionPlan, stance: int, axis: int, by: float) -> MotionPlan:
@@ -41,7 +45,7 @@ def moved_foothold(motion: MotionPlan, stance: int, axis: int, by: float) -> Mot
 
 EVERY = slice(None)
 DOCTORS: dict[str, Callable[[MotionPlan], MotionPlan]] = {
-    "dynamics_defect_m_s2": lambda m: replace(m, com=bent(m.com, 12, 2, 0, 0.05)),
+    "dynamics_defect_m_s2": lambda m: replace(m, com=bent(m.com, 12, 0, 0, 0.05)),
     "com_height_miss_mm": lambda m: replace(m, com=bent(m.com, 12, 0, 2, 1e-3)),
     "cop_outside_mm": lambda m: replace(m, cop=bent(m.cop, 12, 0, 1, 1e-3)),
     "reach_outside_mm": lambda m: moved_foothold(m, 1, 1, 0.15),
@@ -86,8 +90,10 @@ def test_violation_between_knots_is_found() -> None:
     """A bump that vanishes at both ends and in the middle of a polynomial: 16 s^2 (1 - s)^2 (1 - 2 s)^2."""
     motion = good_plan()
     bump = 16.0 * 0.002 * np.array([0.0, 0.0, 1.0, -6.0, 13.0, -12.0, 4.0])
-    coefficients = np.zeros((len(motion.cop.coefficients), 7, 2))
-    coefficients[:, :3] = motion.cop.coefficients
+    assert isinstance(motion.cop, PiecewisePolynomial)
+    given = motion.cop.coefficients
+    coefficients = np.zeros((len(given), 7, 2))
+    coefficients[:, : given.shape[1]] = given
     duration = motion.cop.knots[13] - motion.cop.knots[12]
     coefficients[12, :, 0] += bump / duration ** np.arange(7)
     assert "cop_outside_mm" in judged(replace(motion, cop=PiecewisePolynomial(motion.cop.knots, coefficients))).violated

@@ -6,8 +6,8 @@ from planning_cases import COMMANDS, problem
 
 from quadlab.gaits.schedule import ContactSchedule
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex
-from quadlab.planners.vertex_zmp.grid import polynomial_grid
-from quadlab.planners.vertex_zmp.layout import BlockLayout
+from quadlab.planners.vertex_zmp.paper.grid import polynomial_grid
+from quadlab.planners.vertex_zmp.paper.layout import BlockLayout
 
 
 def schedule_of(gait_name: str) -> ContactSchedule:
@@ -37,10 +37,9 @@ def test_feet_move_from_one_foothold_to_the_next() -> None:
     footholds = FootholdIndex(schedule_of("trot"))
     swing = footholds.schedule.swings[0][0]
     times = np.array([0.0, swing.start_s, 0.5 * (swing.start_s + swing.end_s), swing.end_s])
-    weights = np.array(footholds.position_weights(0, times).full())
-    expected = np.array([[1.0, 0.0], [1.0, 0.0], [0.5, 0.5], [0.0, 1.0]])
-    np.testing.assert_allclose(weights[:2].T, expected, atol=1e-12)
-    np.testing.assert_allclose(weights.sum(axis=0), 1.0)
+    stances, shares = footholds.position_shares(0, times)
+    np.testing.assert_array_equal(stances, [0, 0, 0, 1])
+    np.testing.assert_allclose(shares, [0.0, 0.0, 0.5, 0.0], atol=1e-12)
 
 
 def test_layout_packs_what_it_unpacks() -> None:

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import casadi as ca
 import numpy as np
 import pytest
 from planning_cases import COMMANDS, MODELS, plan, planner, problem, solved, standing
@@ -141,8 +140,8 @@ def test_unreachable_goals_are_an_outcome_that_names_constraints() -> None:
 def test_iteration_limit_is_an_outcome() -> None:
     outcome = plan(problem("anymal", "walk", COMMANDS["forward"]), max_iterations=2)
     assert outcome.status is PlanningStatus.SOLVER_LIMIT
-    assert "Maximum_Iterations_Exceeded" in outcome.reason
-    assert "lip_dynamics_m" in outcome.reason or "range_of_motion_m" in outcome.reason
+    assert "limit of iterations" in outcome.reason
+    assert "load_balance_m" in outcome.reason or "range_of_motion_m" in outcome.reason
 
 
 def test_rejection_by_the_checker_is_an_outcome() -> None:
@@ -152,37 +151,7 @@ def test_rejection_by_the_checker_is_an_outcome() -> None:
     assert "dynamics_defect_m_s2" in outcome.reason
 
 
-def test_shorter_polynomials_follow_the_pendulum_better() -> None:
-    trot = problem("anymal", "trot", COMMANDS["forward"])
-    defects = []
-    for duration in (0.2, 0.1, 0.05):
-        motion = plan(trot, polynomial_duration_s=duration).plan
-        assert motion is not None
-        defects.append(motion.verdict.values["dynamics_defect_m_s2"])
-    assert defects[0] > 3.0 * defects[1] > 9.0 * defects[2]
-
-
 def test_malformed_problem_raises_on_build() -> None:
     trot = problem("anymal", "trot", COMMANDS["forward"])
     with pytest.raises(PlanningProblemError, match="NaN"):
         planner().build(replace(trot, start=standing(trot.model, np.array([np.nan, 0.0]))))
-
-
-def test_derivatives_of_the_program_agree_with_finite_differences() -> None:
-    trot = problem("anymal", "trot", COMMANDS["turn"])
-    program = planner(polynomial_duration_s=0.4).build(trot).transcription
-    multipliers = ca.SX.sym("multipliers", program.g.numel())
-    lagrangian = program.f + ca.dot(multipliers, program.g)
-    hessian, gradient = ca.hessian(lagrangian, program.x)
-    inputs = [program.x, program.p, multipliers]
-    values = ca.Function("values", inputs, [program.g, gradient])
-    derivatives = ca.Function("derivatives", inputs, [ca.jacobian(program.g, program.x), hessian])
-    random = np.random.default_rng(0)
-    x = program.guess + 0.01 * random.standard_normal(len(program.guess))
-    given = program.parameters, random.standard_normal(program.g.numel())
-    jacobian, curvature = (np.array(matrix) for matrix in derivatives(x, *given))
-    for direction in random.standard_normal((5, len(x))):
-        ahead, behind = values(x + 1e-4 * direction, *given), values(x - 1e-4 * direction, *given)
-        change = [(np.array(a) - np.array(b)).ravel() / 2e-4 for a, b in zip(ahead, behind, strict=True)]
-        np.testing.assert_allclose(change[0], jacobian @ direction, rtol=1e-6, atol=1e-6)
-        np.testing.assert_allclose(change[1], curvature @ direction, rtol=1e-6, atol=1e-5)

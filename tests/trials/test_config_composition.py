@@ -65,6 +65,10 @@ def test_run_options_are_no_part_of_the_trial() -> None:
         ("command.kind=goal_pose", "command.kind: unknown 'goal_pose'; did you mean 'goal'?; known: "),
         ("duration_s=${nothing}", "Interpolation key 'nothing' not found"),
         ("duration_s", "duration_s: cannot be read as key=value"),
+        ("gait.cycles.7.stride_duration_s=1", "Error merging override gait.cycles.7.stride_duration_s=1: list index"),
+        ("gait.cycles.x.stride_duration_s=1", "Index 'x' (str) is not an int"),
+        ("gait.cycles.0.stride_s=1", "gait.cycles[0].stride_s: unknown key; did you mean 'stride_duration_s'?"),
+        ("=3", "Config group override must be a string"),
         ("force=perhaps", "force: input should be a valid boolean"),
     ],
 )

@@ -37,7 +37,7 @@ def certificate(levels: Sequence[Level], x: Array) -> Array:
 
     Returns:
         (levels,) norm of what no multiplier can balance, relative to the rows of the level times max(1, its slacks).
-        A right solution has rounding errors, 1e-14 to 1e-9; a wrong one typically more than 1e-4; inf if the
+        A right solution has rounding errors, 1e-15 to 1e-9; a point 1e-4 away from it has more than 1e-6; inf if the
         least-squares routine found no multipliers.
     """
     fixed_rows, active_rows = np.zeros((0, len(x))), np.zeros((0, len(x)))

@@ -1,5 +1,6 @@
 """Which leg stands, swings or searches: the plan's schedule corrected by what the feet feel."""
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,7 +11,10 @@ from quadlab.gaits.schedule import BoolArray, ContactSchedule, Swing
 from quadlab.geometry.rotations import Array
 from quadlab.robots.legs import LEG_COUNT, LEGS
 
-_EARLY = 0.93  # share of the swing before which a touch-down is reported as early
+SHORTEST_SWING_S = 0.05
+"""A swing that begins late still takes so long, in [s]."""
+
+_EARLY = 0.88  # share of the swing before which a touch-down is reported as early
 
 
 @dataclass
@@ -42,7 +46,12 @@ class LegContact:
 
     def swing_phase(self, plan_time_s: float) -> float:
         """Return the progress of the swing under way, from 0; above 1 it is late."""
-        return (plan_time_s - self.lift_off_s) / max(self.touch_down_due_s - self.lift_off_s, 1e-3)
+        return (plan_time_s - self.lift_off_s) / self.swing_duration_s
+
+    @property
+    def swing_duration_s(self) -> float:
+        """Planned time in the air of the swing under way, at least ``SHORTEST_SWING_S``, in [s]."""
+        return max(self.touch_down_due_s - self.lift_off_s, SHORTEST_SWING_S)
 
 
 @dataclass
@@ -92,7 +101,7 @@ class ContactMachine:
     def _stand(self, leg: int, time_s: float, completed: int, swing: Swing | None, foot: Array) -> None:
         """Slip, lift off when due, skip what came too late."""
         state = self.legs[leg]
-        if np.linalg.norm(foot - state.stance_point) > self.config.slip_m:
+        if math.dist(foot, state.stance_point) > self.config.slip_m:
             state.stance_point = foot
         if swing is None:
             if state.foothold < completed:
@@ -136,7 +145,7 @@ class ContactMachine:
             return
         state.search_depth += self.config.search_speed_mps * period_s
         reached = state.foothold + (1 if state.completes_swing else 0)
-        if swing is not None and reached == completed and not self._too_late(swing, time_s):
+        if swing is not None and reached == completed:
             state.foothold = completed
             self._lift_off(leg, time_s, swing.end_s, foot)
 
@@ -145,9 +154,10 @@ class ContactMachine:
 
     def _lift_off(self, leg: int, time_s: float, due_s: float, foot: Array) -> None:
         state = self.legs[leg]
+        if state.mode is LegMode.STANCE:
+            state.stance_point = foot
         state.mode = LegMode.SWING
         state.lift_off_point = foot
-        state.stance_point = foot
         state.lift_off_s = time_s
         state.touch_down_due_s = due_s
 
@@ -174,7 +184,7 @@ class ContactMachine:
 
     def _skip(self, leg: int, foothold: int) -> None:
         self.legs[leg].foothold = foothold
-        self._note(leg, "swing skipped: too few other legs stood")
+        self._note(leg, "swing skipped")
 
     def _note(self, leg: int, text: str) -> None:
         self.events.append(f"{LEGS[leg]} {text}")

@@ -14,7 +14,6 @@ from quadlab.estimation.terrain_plane import TerrainPlane
 from quadlab.geometry.rotations import Array, yaw_of
 from quadlab.robots.kinematics import Kinematics
 
-_SHORTEST_SWING_S = 0.05
 _IDLE = FootMotion(np.full(3, np.nan), np.full(3, np.nan), np.full(3, np.nan))
 
 
@@ -66,9 +65,8 @@ class FootPlanner:
                 phase = min(1.0, leg.swing_phase(plan_time_s))
                 planned = alignment.position(self._next_foothold(number, leg))
                 foothold = self._adapt(number, planned, velocity_error, phase, kinematics, terrain)
-                duration_s = max(leg.touch_down_due_s - leg.lift_off_s, _SHORTEST_SWING_S)
                 apex = self.config.apex * self.base_height
-                motions.append(swing_motion(leg.lift_off_point, foothold, apex, phase, duration_s))
+                motions.append(swing_motion(leg.lift_off_point, foothold, apex, phase, leg.swing_duration_s))
         return motions
 
     def _next_foothold(self, number: int, leg: LegContact) -> Array:

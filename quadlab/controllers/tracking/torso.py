@@ -18,7 +18,11 @@ def torso_rotation(yaw: float, terrain: TerrainPlane, slope_following: float) ->
 
 def ground_axes(yaw: float, terrain: TerrainPlane) -> Array:
     """Return the columns heading, lateral and normal of the ground, (3, 3), for a heading ``yaw`` in [rad]."""
-    normal = terrain.normal
-    lateral = np.cross(normal, np.array([math.cos(yaw), math.sin(yaw), 0.0]))
-    lateral /= np.linalg.norm(lateral)
-    return np.column_stack([np.cross(lateral, normal), lateral, normal])
+    c, s = math.cos(yaw), math.sin(yaw)
+    nx, ny, nz = (float(value) for value in terrain.normal)
+    off_plane = c * nx + s * ny
+    hx, hy, hz = c - off_plane * nx, s - off_plane * ny, -off_plane * nz
+    length = math.sqrt(hx * hx + hy * hy + hz * hz)
+    hx, hy, hz = hx / length, hy / length, hz / length
+    lateral = (ny * hz - nz * hy, nz * hx - nx * hz, nx * hy - ny * hx)
+    return np.array([(hx, hy, hz), lateral, (nx, ny, nz)]).T

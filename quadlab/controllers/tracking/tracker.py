@@ -20,7 +20,7 @@ from quadlab.controllers.tracking.feet import FootPlanner
 from quadlab.controllers.tracking.force_ramp import normal_force_limit, ramp_duration
 from quadlab.controllers.tracking.torso import ground_axes, torso_rotation
 from quadlab.estimation.terrain_plane import TerrainPlane, blend, fit_plane
-from quadlab.geometry.rotations import Array, yaw_of
+from quadlab.geometry.rotations import Array, rotation_2d, yaw_of
 from quadlab.planners.plan import MotionPlan, PlanSample
 from quadlab.planners.problem import GRAVITY
 from quadlab.robots.kinematics import Kinematics
@@ -63,6 +63,7 @@ class MotionTracker:
         self.plan = plan
         self._weight = robot.mass * GRAVITY
         self._base_height = float(robot.nominal_state().position_base_in_world[2])
+        self._com_in_base = robot.nominal_com_in_base[:2]
         self._contacts = start_contacts(config.contact, plan.schedule, self._weight, start.foot_positions)
         self._ramps_s = [ramp_duration(config.force_ramp, plan.schedule, leg) for leg in range(LEG_COUNT)]
         self._alignment = SmoothedAlignment(config.alignment.time_constant_s, identity_alignment())
@@ -124,6 +125,7 @@ class MotionTracker:
     def _reference(
         self, plan_time_s: float, sample: PlanSample, torso: PlanarPose, kinematics: Kinematics, speed: float
     ) -> ControlReference:
+        com_position = torso.position(sample.com_position[:2])
         com_velocity = speed * torso.vector(sample.com_velocity[:2])
         yaw = sample.yaw + torso.yaw
         kind = self.config.alignment.swing
@@ -132,9 +134,10 @@ class MotionTracker:
             self._contacts.legs, plan_time_s, footholds, com_velocity, kinematics, self._terrain
         )
         return ControlReference(
-            com_position=torso.position(sample.com_position[:2]),
+            com_position=com_position,
             com_velocity=com_velocity,
             com_acceleration=speed * torso.vector(sample.com_acceleration[:2]),
+            base_position=com_position - rotation_2d(yaw) @ self._com_in_base,
             base_height=self._terrain.height_at(kinematics.base_position[:2]) + self._base_height,
             base_rotation=torso_rotation(yaw, self._terrain, self.config.torso.slope_following),
             base_angular_velocity=np.array([0.0, 0.0, speed * sample.yaw_rate]),
@@ -144,7 +147,9 @@ class MotionTracker:
             stance=self._contacts.stance,
             normal_force_limits=np.array([self._force_limit(leg, plan_time_s) for leg in range(LEG_COUNT)]),
             torque_limits=self.robot.torque_limits,
+            joint_position_limits=self.robot.joint_position_limits,
             weight=self._weight,
+            standing_height=self._base_height,
             ground_axes=ground_axes(yaw, self._terrain),
         )
 

@@ -4,36 +4,41 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
-import casadi as ca
 import numpy as np
+from numpy.typing import NDArray
 
 from quadlab.gaits.schedule import ContactSchedule
 from quadlab.geometry.rotations import Array
 from quadlab.planners.swing import swing_blend
-from quadlab.planners.vertex_zmp.grid import IntArray
-from quadlab.robots.legs import LEG_COUNT
+
+IntArray = NDArray[np.intp]
 
 
 @dataclass(frozen=True)
 class FootholdIndex:
-    """Numbers all stances of all legs, leg after leg; each leg begins with the stance of the given start.
+    """Numbers all stances of all feet, foot after foot; each foot begins with the stance of the given start.
 
     Attributes:
-        schedule: contact flags.
+        schedule: contact flags of F feet.
     """
 
     schedule: ContactSchedule
 
+    @property
+    def foot_count(self) -> int:
+        """Number of feet F."""
+        return len(self.schedule.swings)
+
     @cached_property
     def first(self) -> IntArray:
-        """Number of the first stance of each leg, (4,)."""
+        """Number of the first stance of each foot, (F,)."""
         counts = [len(swings) + 1 for swings in self.schedule.swings]
         return np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.intp)
 
     @property
     def count(self) -> int:
         """Number of all stances M."""
-        return self.swing_count + LEG_COUNT
+        return self.swing_count + self.foot_count
 
     @property
     def swing_count(self) -> int:
@@ -42,25 +47,28 @@ class FootholdIndex:
 
     @cached_property
     def free(self) -> IntArray:
-        """Numbers of the stances that are variables, (M - 4,)."""
+        """Numbers of the stances that are variables, (M - F,)."""
         return np.setdiff1d(np.arange(self.count), self.first)
 
     @cached_property
     def free_legs(self) -> IntArray:
-        """Leg of each free stance, (M - 4,)."""
+        """Foot of each free stance, (M - F,)."""
         return np.searchsorted(self.first, self.free, side="right") - 1
 
     @cached_property
     def phase_stances(self) -> IntArray:
-        """Stance that each leg is in, or is leaving, in each phase, (p, 4)."""
+        """Stance that each foot is in, or is leaving, in each phase, (p, F)."""
         times = self.schedule.switch_times_s
         middles = 0.5 * (times[:-1] + times[1:])
-        completed = [[self.schedule.swing_at(leg, float(t))[0] for leg in range(LEG_COUNT)] for t in middles]
-        return np.array(completed, dtype=np.intp) + self.first
+        completed = [
+            np.searchsorted([swing.end_s for swing in swings], middles) if swings else np.zeros(len(middles), np.intp)
+            for swings in self.schedule.swings
+        ]
+        return np.stack(completed, axis=1) + self.first
 
     @cached_property
     def free_middles_s(self) -> Array:
-        """Middle of the time that each free stance lasts, (M - 4,) in [s]; the end of the plan for the last ones.
+        """Middle of the time that each free stance lasts, (M - F,) in [s]; the end of the plan for the last ones.
 
         A motion ends at rest, so its last footholds belong under the final pose.
         """
@@ -70,19 +78,16 @@ class FootholdIndex:
             middles += [self.schedule.duration_s] * bool(swings)
         return np.array(middles)
 
-    def position_weights(self, leg: int, times_s: Array) -> ca.DM:
-        """Return W with foot positions = stances (2, M) @ W at ``times_s``; sparse, (M, s).
+    def position_shares(self, leg: int, times_s: Array) -> tuple[IntArray, Array]:
+        """Return (stance, share of the next one) at ``times_s``, both (s,).
 
         A standing foot is at its stance, a swing foot on the cubic of Eq. (13) between two of them.
         """
-        rows: list[int] = []
-        columns: list[int] = []
-        weights: list[float] = []
-        for column, time in enumerate(times_s):
-            completed, swing = self.schedule.swing_at(leg, float(time))
-            stance = int(self.first[leg]) + completed
-            share = 0.0 if swing is None else float(swing_blend((time - swing.start_s) / swing.duration_s))
-            rows += [stance] if share == 0.0 else [stance, stance + 1]
-            columns += [column] if share == 0.0 else [column, column]
-            weights += [1.0] if share == 0.0 else [1.0 - share, share]
-        return ca.DM.triplet(rows, columns, ca.DM(weights), self.count, len(times_s))
+        swings = self.schedule.swings[leg]
+        if not swings:
+            return np.full(len(times_s), self.first[leg]), np.zeros(len(times_s))
+        starts, ends = np.array([(swing.start_s, swing.end_s) for swing in swings]).T
+        landed = np.searchsorted(ends, times_s + 1e-9, side="right")
+        swing = np.minimum(landed, len(swings) - 1)
+        fraction = np.clip((times_s - starts[swing]) / (ends - starts)[swing], 0.0, 1.0)
+        return self.first[leg] + landed, np.where(landed < len(swings), swing_blend(fraction), 0.0)

@@ -1,8 +1,7 @@
-"""The vertex-ZMP planner of Winkler 2017 for point feet, with CasADi and Ipopt."""
+"""The vertex-ZMP planner of Winkler 2017, with two transcriptions of the same problem."""
 
-import time
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,24 +12,7 @@ from quadlab.planners.planner import PlanningOutcome, PlanningStatus
 from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.validation import farthest_travel, validate_problem
 from quadlab.planners.vertex_zmp.config import VertexZmpConfig
-from quadlab.planners.vertex_zmp.solution import motion_plan, with_verdict
-from quadlab.planners.vertex_zmp.solver import Solution, make_solver, run_solver
-from quadlab.planners.vertex_zmp.transcription import Transcription, transcribe
-
-
-@dataclass(frozen=True)
-class VertexZmpBuild:
-    """A transcription with the solver that was made for it.
-
-    Attributes:
-        transcription: the nonlinear program.
-        solver: Ipopt, ready to run.
-        build_ms: wall time of both in [ms].
-    """
-
-    transcription: Transcription
-    solver: Any
-    build_ms: float
+from quadlab.planners.vertex_zmp.solution import Build, Solution
 
 
 @register("planner", "vertex_zmp")
@@ -46,35 +28,38 @@ class VertexZmpPlanner:
     def __init__(self, config: VertexZmpConfig) -> None:
         self.config = config
 
-    def build(self, problem: PlanningProblem) -> VertexZmpBuild:
-        """Return the nonlinear program of ``problem`` and its solver.
+    def build(self, problem: PlanningProblem) -> Build:
+        """Return the program of ``problem``, ready to be solved.
 
         Raises:
-            PlanningProblemError: if the problem is malformed.
+            PlanningProblemError: if the problem is malformed, or not one for the configured transcription.
         """
         validate_problem(problem)
-        begin = time.perf_counter()
-        transcription = transcribe(problem, self.config)
-        solver = make_solver(transcription, self.config)
-        return VertexZmpBuild(transcription, solver, 1e3 * (time.perf_counter() - begin))
+        if self.config.transcription == "fast":  # each is imported on demand: CasADi and numba take long to load
+            from quadlab.planners.vertex_zmp.fast.build import build_fast  # noqa: PLC0415
 
-    def solve(self, transcription: VertexZmpBuild) -> PlanningOutcome:
+            return build_fast(problem, self.config)
+        from quadlab.planners.vertex_zmp.paper.build import build_paper  # noqa: PLC0415
+
+        return build_paper(problem, self.config)
+
+    def solve(self, transcription: Build) -> PlanningOutcome:
         """Solve, compare residuals with their tolerance, check the plan independently, return the outcome."""
-        problem = transcription.transcription.problem
+        problem = transcription.problem
         too_far = _out_of_range(problem)
         if too_far:
             return PlanningOutcome(PlanningStatus.INFEASIBLE, too_far, None)
-        solution = run_solver(transcription.solver, transcription.transcription)
+        solution = transcription.solve()
         violated = {k: v for k, v in solution.residuals.items() if not v <= self.config.residual_tolerance}
         if violated or not solution.converged:
             status = PlanningStatus.INFEASIBLE if solution.infeasible else PlanningStatus.SOLVER_LIMIT
             return PlanningOutcome(status, _failure(solution, violated, self.config.residual_tolerance), None)
-        plan = motion_plan(transcription.transcription, solution.x, _report(transcription, solution))
+        plan = transcription.motion_plan(solution.x, _report(transcription, solution))
         verdict = check_plan(plan, problem, self.config.checker)
         if not verdict.accepted:
             found = ", ".join(f"{n} {verdict.values[n]:.3g} > {verdict.tolerances[n]:.3g}" for n in verdict.violated)
             return PlanningOutcome(PlanningStatus.REJECTED, f"the checker found {found}", None)
-        return PlanningOutcome(PlanningStatus.SOLVED, f"Ipopt: {solution.status}", with_verdict(plan, verdict))
+        return PlanningOutcome(PlanningStatus.SOLVED, solution.status, replace(plan, verdict=verdict))
 
 
 def _out_of_range(problem: PlanningProblem) -> str | None:
@@ -90,24 +75,25 @@ def _out_of_range(problem: PlanningProblem) -> str | None:
     )
 
 
-def _failure(solution: Solution, violated: dict[str, float], tolerance: float) -> str:
-    """Return where Ipopt stopped and which constraint sets it left violated, worst first."""
+def _failure(solution: Solution, violated: Mapping[str, float], tolerance: float) -> str:
+    """Return where the solver stopped and which constraint sets it left violated, worst first."""
     worst = sorted(violated.items(), key=lambda item: item[1], reverse=True)
     sets = ", ".join(f"{name} {value:.2e}" for name, value in worst) or "none"
     return (
-        f"Ipopt stopped after {solution.iterations} iterations with {solution.status}; "
+        f"{solution.status}, stopped after {solution.iterations} iterations; "
         f"constraint sets violated by more than {tolerance:g}: {sets}"
     )
 
 
-def _report(build: VertexZmpBuild, solution: Solution) -> PlanReport:
+def _report(build: Build, solution: Solution) -> PlanReport:
+    variables, constraints = build.size
     return PlanReport(
         planner="vertex_zmp",
         build_ms=build.build_ms,
         solve_ms=solution.solve_ms,
         iterations=solution.iterations,
-        variables=len(solution.x),
-        constraints=sum(len(constraint.lower) for constraint in build.transcription.constraints),
-        costs=solution.costs,
-        residuals=solution.residuals,
+        variables=variables,
+        constraints=constraints,
+        costs=dict(solution.costs),
+        residuals=dict(solution.residuals),
     )

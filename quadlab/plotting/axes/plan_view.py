@@ -1,6 +1,7 @@
 """A plan from above (the look of Winkler 2017, Fig. 5), and over it what the robot did."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -30,7 +31,7 @@ def draw_placed_plan(axes: Axes, plan: PlacedPlan) -> None:
     for support in plan.supports:
         _draw_support(axes, support)
     axes.plot(*plan.cop.T, ".", ms=1.6, color=COP, mew=0, zorder=3)
-    _draw_com(axes, plan)
+    draw_by_phase(axes, plan.com, plan.contacts)
     for colour, footholds in zip(LEG_COLOURS, plan.footholds, strict=True):
         axes.plot(*footholds[:1].T, **{**_FOOTHOLD, "marker": "s"}, color=colour, zorder=4)
         axes.plot(*footholds[1:].T, **_FOOTHOLD, color=colour, zorder=4)
@@ -77,6 +78,12 @@ def frame_points(axes: Axes, points: Sequence[Array]) -> None:
     axes.set_ylabel("y [m]")
 
 
+def extent_of(points: Sequence[Array]) -> tuple[float, float]:
+    """Return width and height in [m] of what ``frame_points`` makes visible."""
+    width, height = np.ptp(np.concatenate(list(points)), axis=0) + 2.0 * _MARGIN
+    return float(width), float(height)
+
+
 def plan_points(plan: PlacedPlan) -> list[Array]:
     """Return everything that a view of ``plan`` must contain, each (n, 2) in [m]."""
     return [plan.com, plan.cop, *plan.footholds]
@@ -88,6 +95,14 @@ def phase_colour(contacts: BoolArray) -> str:
     return LEG_COLOURS[swinging[0]] if len(swinging) else NEUTRAL
 
 
+def draw_by_phase(axes: Axes, points: Array, contacts: BoolArray) -> None:
+    """Draw a line through ``points``, (n, 2), in the colours of the phases that ``contacts``, (n, 4), are in."""
+    bounds = [0, *(np.flatnonzero(np.any(contacts[1:] != contacts[:-1], axis=1)) + 1).tolist(), len(points) - 1]
+    pieces = [(points[begin : end + 1], contacts[begin]) for begin, end in pairwise(bounds)]
+    colours = [phase_colour(flags) for _, flags in pieces]
+    axes.add_collection(LineCollection([piece for piece, _ in pieces], colors=colours, linewidths=1.8, zorder=3.5))
+
+
 def _draw_support(axes: Axes, support: SupportArea) -> None:
     colour = phase_colour(support.contacts)
     if len(support.corners) > 2:
@@ -95,9 +110,3 @@ def _draw_support(axes: Axes, support: SupportArea) -> None:
         axes.add_patch(Polygon(support.corners, fill=False, edgecolor=colour, alpha=_EDGE_ALPHA, lw=0.4, zorder=1))
     else:
         axes.plot(*support.corners.T, color=colour, alpha=_LINE_ALPHA, lw=1.0, zorder=1)
-
-
-def _draw_com(axes: Axes, plan: PlacedPlan) -> None:
-    segments = np.stack([plan.com[:-1], plan.com[1:]], axis=1)
-    colours = [phase_colour(contacts) for contacts in plan.contacts[:-1]]
-    axes.add_collection(LineCollection(list(segments), colors=colours, linewidths=1.8, zorder=3.5))

@@ -14,7 +14,6 @@ from quadlab.geometry.rotations import Array
 from quadlab.plotting.intervals import Interval, intervals_where
 from quadlab.plotting.style import PUSH
 
-_LONGEST_ARROW = 0.22  # [m] on the ground
 _SPAN_ALPHA = 0.35
 _LABEL_GAP = 3.0  # [pt]
 _ARROW = {
@@ -70,13 +69,19 @@ def shade_pushes(axes: Axes, pushes: Sequence[RecordedPush]) -> None:
         axes.axvspan(*push.interval, color=PUSH, alpha=_SPAN_ALPHA, lw=0, zorder=0.5)
 
 
-def draw_push_arrows(axes: Axes, pushes: Sequence[RecordedPush]) -> None:
-    """Draw an arrow from the robot's place into the direction of each push; lengths are to scale."""
+def draw_push_arrows(axes: Axes, pushes: Sequence[RecordedPush], longest: float) -> None:
+    """Draw an arrow from the robot's place into the direction of each push.
+
+    Args:
+        axes: to draw into.
+        pushes: lengths of their arrows are to scale.
+        longest: length for the strongest push in [m].
+    """
     largest = max((float(np.linalg.norm(push.force[:2])) for push in pushes), default=0.0)
     for push in pushes:
         if not push.force[:2].any():
             continue
-        tip_x, tip_y = push.com_position + _LONGEST_ARROW / largest * push.force[:2]
+        tip_x, tip_y = push.com_position + longest / largest * push.force[:2]
         start_x, start_y = push.com_position
         axes.annotate("", (tip_x, tip_y), (start_x, start_y), arrowprops=_ARROW, zorder=6)
         _label_tip(axes, push, (tip_x, tip_y))

@@ -34,11 +34,17 @@ def finish_time_rows(view: TrialView, rows: Sequence[Axes], bands: Axes) -> None
     """Draw contact bands and pushes, with a legend below; give all rows the same time axis, labelled once."""
     draw_contact_bands(bands, view.bands)
     for axes in (*rows, bands):
-        axes.set_xlim(0.0, view.end_s)
         shade_pushes(axes, view.pushes)
-        axes.tick_params(labelbottom=axes is bands)
-    bands.set_xlabel("time [s]")
+    share_time(rows, bands, view.end_s)
     _legend_below(bands, [*contact_band_legend(view.bands), *push_legend(view.pushes)])
+
+
+def share_time(rows: Sequence[Axes], lowest: Axes, end_s: float) -> None:
+    """Give ``rows`` and the ``lowest`` axes the same time axis up to ``end_s`` in [s], labelled once."""
+    for axes in (*rows, lowest):
+        axes.set_xlim(0.0, end_s)
+        axes.tick_params(labelbottom=axes is lowest)
+    lowest.set_xlabel("time [s]")
 
 
 def draw_tracking(axes: Axes, times_s: Array, reference: Array, measured: Array) -> None:

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from quadlab.analysis.trial_log import vectors
-from quadlab.plotting.axes.plan_view import plan_view_legend
+from quadlab.plotting.axes.plan_view import extent_of, plan_view_legend
 from quadlab.plotting.axes.time_rows import BANDS_HEIGHT, finish_time_rows, legend_above
 from quadlab.plotting.style import LEG_COLOURS, MEASURED, TEXT_WIDTH, paper_style
 from quadlab.plotting.trial.base import draw_base_angle, draw_base_height
@@ -19,7 +19,8 @@ from quadlab.robots.legs import JOINTS_PER_LEG, LEGS
 from quadlab.trials.report import key_numbers
 
 _SIDE_HEIGHT, _ROW_HEIGHT = 0.7, 0.7  # [in]
-_TOP_DOWN_HEIGHTS = (1.2, 3.2)  # [in] least and largest
+_TOP_DOWN_HEIGHTS = (1.2, 2.6)  # [in] least and largest
+_FRAME_WIDTH, _FRAME_HEIGHT = 0.6, 2.6  # [in] of labels, legends and title
 _LINE_LENGTH = 128  # characters of the title
 
 
@@ -27,10 +28,10 @@ _LINE_LENGTH = 128  # characters of the title
 def overview_figure(view: TrialView) -> Figure:
     """Return one page: title with key numbers, view from above, feet from the side, tracking, torques, contacts."""
     followed = aligned_plan(view)
-    extent = np.ptp(np.concatenate(world_points(view, followed)), axis=0) + 0.16
-    top_down = float(np.clip((TEXT_WIDTH - 0.6) * extent[1] / extent[0], *_TOP_DOWN_HEIGHTS))
+    length, width = extent_of(world_points(view, followed))
+    top_down = float(np.clip((TEXT_WIDTH - _FRAME_WIDTH) * width / length, *_TOP_DOWN_HEIGHTS))
     heights = [top_down, _SIDE_HEIGHT, *[_ROW_HEIGHT] * 5, BANDS_HEIGHT]
-    figure = Figure((TEXT_WIDTH, sum(heights) + 2.6), layout="constrained")
+    figure = Figure((TEXT_WIDTH, sum(heights) + _FRAME_HEIGHT), layout="constrained")
     figure.suptitle(title(view), x=0.01, ha="left", fontsize=7.5)
     rows = figure.subplots(len(heights), height_ratios=heights)
     draw_world_view(rows[0], view, followed)
@@ -41,7 +42,7 @@ def overview_figure(view: TrialView) -> Figure:
     rows[1].set_xlabel("x [m]")
     legend_above(rows[1])
     _draw_time_rows(view, list(rows[2:-1]), rows[-1])
-    figure.align_ylabels()
+    figure.align_ylabels(rows[1:])
     return figure
 
 

@@ -8,7 +8,14 @@ from matplotlib.figure import Figure
 
 from quadlab.analysis.trial_log import leg_vectors, vectors
 from quadlab.geometry.rotations import Array
-from quadlab.plotting.axes.plan_view import draw_actual, draw_placed_plan, frame_points, plan_points, plan_view_legend
+from quadlab.plotting.axes.plan_view import (
+    draw_actual,
+    draw_placed_plan,
+    extent_of,
+    frame_points,
+    plan_points,
+    plan_view_legend,
+)
 from quadlab.plotting.axes.pushes import draw_push_arrows
 from quadlab.plotting.axes.terrain import draw_from_above
 from quadlab.plotting.placed_plan import PlacedPlan, in_plan_frame, place_plan
@@ -17,15 +24,16 @@ from quadlab.plotting.trial_view import TrialView
 from quadlab.robots.legs import LEG_COUNT
 
 _SHORTEST_STANCE_S = 0.01
+_ARROW_SHARE = 0.24  # of the shorter side of the view, for the strongest push
 _LARGEST_HEIGHT = 4.0  # [in] of a panel
-_SIDE_BY_SIDE = 1.3  # panels that are less elongated than this stand beside each other
+_SIDE_BY_SIDE = 2.2  # panels that are less elongated than this stand beside each other
 
 
 @paper_style()
 def top_down_figure(view: TrialView) -> Figure:
     """Return the plan in its own frame and, in the world, the plan that followed the robot and what was measured."""
     planned, followed = in_plan_frame(view.plan), aligned_plan(view)
-    shape = _extent(plan_points(planned)), _extent(world_points(view, followed))
+    shape = extent_of(plan_points(planned)), extent_of(world_points(view, followed))
     stacked = min(extent[0] / extent[1] for extent in shape) > _SIDE_BY_SIDE
     figure = Figure(_size(shape, stacked), layout="constrained")
     rows, columns = (2, 1) if stacked else (1, 2)
@@ -38,7 +46,7 @@ def top_down_figure(view: TrialView) -> Figure:
     if stacked:
         _share_x_limits(above, below)
     below.set_title("(b) trial, in the world: the plan as it followed the robot", loc="left")
-    figure.legend(handles=plan_view_legend(actual=True), loc="outside lower center", ncols=5 if stacked else 10)
+    figure.legend(handles=plan_view_legend(actual=True), loc="outside lower center", ncols=5)
     return figure
 
 
@@ -47,8 +55,9 @@ def draw_world_view(axes: Axes, view: TrialView, followed: PlacedPlan) -> None:
     draw_from_above(axes, view.ground)
     draw_placed_plan(axes, followed)
     draw_actual(axes, vectors(view.log.control, "com")[:, :2], stance_points(view))
-    draw_push_arrows(axes, view.pushes)
-    frame_points(axes, world_points(view, followed))
+    points = world_points(view, followed)
+    draw_push_arrows(axes, view.pushes, _ARROW_SHARE * min(extent_of(points)))
+    frame_points(axes, points)
 
 
 def aligned_plan(view: TrialView) -> PlacedPlan:
@@ -86,13 +95,7 @@ def _share_x_limits(above: Axes, below: Axes) -> None:
         axes.set_xlim(min(low for low, _ in limits), max(high for _, high in limits))
 
 
-def _extent(points: Sequence[Array]) -> Array:
-    everything = np.concatenate(points)
-    extent: Array = np.ptp(everything, axis=0) + 0.16
-    return extent
-
-
-def _size(extents: Sequence[Array], stacked: bool) -> tuple[float, float]:
+def _size(extents: Sequence[tuple[float, float]], stacked: bool) -> tuple[float, float]:
     width = TEXT_WIDTH - 0.6 if stacked else 0.5 * TEXT_WIDTH - 0.6
     heights = [min(_LARGEST_HEIGHT, width * extent[1] / extent[0]) for extent in extents]
     return TEXT_WIDTH, (sum(heights) + 1.5) if stacked else max(heights) + 0.9

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quadlab.errors import LogError
+from quadlab.estimation.estimate import Estimate, FilterReport
 from quadlab.geometry.rotations import euler_zyx
 from quadlab.robots.legs import JOINT_NAMES, LEGS
 from quadlab.trials.recording.packed_message import FieldType
@@ -65,6 +66,42 @@ STATE_BLOCKS = (
     _state("push_force", XYZ, _total_push),
 )
 """Topic /state: SI units, world components unless the name says otherwise; torques are the applied ones."""
+
+
+
+def _estimate(tick: TickRecord) -> Estimate:
+    if tick.estimate is None:
+        raise LogError("a log of estimates needs the estimate of every tick")
+    return tick.estimate
+
+
+def _filter(tick: TickRecord) -> FilterReport:
+    report = _estimate(tick).report
+    if report is None:
+        raise LogError("a log of estimates needs the filter's report of every tick")
+    return report
+
+
+ESTIMATE_BLOCKS = (
+    _state("base_position", XYZ, lambda tick: _estimate(tick).state.position_base_in_world),
+    _state("base_quat", WXYZ, lambda tick: _estimate(tick).state.quat_wxyz),
+    _state("base_linear_velocity_in_world", XYZ, lambda tick: _estimate(tick).state.linear_velocity_base_in_world),
+    _state("base_angular_velocity_in_base", XYZ, lambda tick: _estimate(tick).state.angular_velocity_base_in_base),
+    Block("joint_position", JOINT_NAMES, lambda tick: _estimate(tick).state.joint_positions),
+    Block("joint_velocity", JOINT_NAMES, lambda tick: _estimate(tick).state.joint_velocities),
+    Block("foot_force", LEGS_XYZ, lambda tick: _estimate(tick).state.foot_forces_in_world.ravel()),
+    Block("accelerometer_bias", XYZ, lambda tick: _filter(tick).accelerometer_bias),
+    Block("gyro_bias", XYZ, lambda tick: _filter(tick).gyro_bias),
+    Block("base_position_std", XYZ, lambda tick: _filter(tick).position_std),
+    Block("base_velocity_std", XYZ, lambda tick: _filter(tick).velocity_std),
+    Block("base_orientation_std", XYZ, lambda tick: _filter(tick).orientation_std),
+    Block("contact", LEGS, lambda tick: _filter(tick).contacts, FieldType.FIXED32),
+    Block("foot_used", LEGS, lambda tick: _filter(tick).used, FieldType.FIXED32),
+    Block("innovation_squared", (), lambda tick: _filter(tick).innovation_squared),
+    Block("innovation_size", (), lambda tick: _filter(tick).innovation_size, FieldType.FIXED32),
+    Block("outliers", (), lambda tick: _filter(tick).outliers, FieldType.FIXED32),
+)
+"""Topic /estimate: what the controller was given in place of /state, and what the filter says about it."""
 
 CONTROL_BLOCKS = (
     Block("plan_time_s", (), lambda tick: tick.telemetry.plan_time_s),

@@ -6,8 +6,8 @@ import numpy as np
 from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
+from quadlab.geometry.curve import Curve
 from quadlab.geometry.rotations import Array
-from quadlab.geometry.splines import PiecewisePolynomial
 from quadlab.planners.plan import MotionPlan
 from quadlab.planners.swing import swing_blend
 from quadlab.robots.legs import LEGS
@@ -50,6 +50,6 @@ def _leg_entity(leg: int, footholds: Array, time_ns: int) -> SceneEntity:
     return target
 
 
-def _sampled(curve: PiecewisePolynomial, duration_s: float) -> Array:
+def _sampled(curve: Curve, duration_s: float) -> Array:
     times = np.append(np.arange(0.0, duration_s, _SAMPLE_PERIOD), duration_s)
     return np.array([curve(float(time)) for time in times])

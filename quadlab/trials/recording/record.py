@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from quadlab.controllers.telemetry import ControlTelemetry
+from quadlab.estimation.estimate import Estimate
 from quadlab.geometry.rotations import Array
 from quadlab.robots.state import JointCommand, RobotState
 
@@ -16,12 +17,14 @@ class TickRecord:
         command: torques applied during the tick.
         telemetry: what the controller says about the tick.
         pushes: external forces during the tick as (point (3,) in [m], force (3,) in [N]), both in world components.
+        estimate: that the controller was given; None if it is not known.
     """
 
     state: RobotState
     command: JointCommand
     telemetry: ControlTelemetry
     pushes: tuple[tuple[Array, Array], ...] = ()
+    estimate: Estimate | None = None
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,14 @@ from quadlab.planners.plan import MotionPlan
 from quadlab.planners.plan_io import plan_to_bytes
 from quadlab.simulation.geom_description import GeomDescription
 from quadlab.trials.recording import topics
-from quadlab.trials.recording.columns import CONTROL_BLOCKS, STATE_BLOCKS, TIMING_BLOCKS, Block, level_blocks
+from quadlab.trials.recording.columns import (
+    CONTROL_BLOCKS,
+    ESTIMATE_BLOCKS,
+    STATE_BLOCKS,
+    TIMING_BLOCKS,
+    Block,
+    level_blocks,
+)
 from quadlab.trials.recording.config import LogConfig
 from quadlab.trials.recording.log_file import LogFile, nanoseconds
 from quadlab.trials.recording.primitives import stamp
@@ -55,6 +62,7 @@ class TrialRecorder:
         geoms: Sequence[GeomDescription],
         attachments: Attachments,
         metadata: Mapping[str, str],
+        estimates: bool = False,
     ) -> None:
         """Create the part file and write what is known before the first tick.
 
@@ -66,13 +74,14 @@ class TrialRecorder:
             geoms: shapes of the robot and of its surroundings (body "world").
             attachments: further files that belong to the trial.
             metadata: a few words for listings, e.g. trial id and robot.
+            estimates: whether every tick carries the estimate of a filter; it gets a topic of its own.
 
         Raises:
             LogError: if two levels have the same column name, or ``attachments`` holds a ``plan.npz`` too.
         """
         if topics.PLAN_ATTACHMENT in attachments:
             raise LogError(f"attachment '{topics.PLAN_ATTACHMENT}': the recorder adds it itself; use another name")
-        blocks = _blocks(level_names, config)
+        blocks = _blocks(level_names, config, estimates)
         self._level_names = frozenset(level_names)
         self._pushed = False
         self._file = LogFile(path, part_path(path), config.chunk_size_kib * _KIBIBYTE)
@@ -142,8 +151,12 @@ def part_path(path: Path) -> Path:
     return path.with_name(path.name + topics.PART_SUFFIX)
 
 
-def _blocks(level_names: Sequence[str], config: LogConfig) -> dict[str, tuple[str, tuple[Block, ...]]]:
+def _blocks(
+    level_names: Sequence[str], config: LogConfig, estimates: bool
+) -> dict[str, tuple[str, tuple[Block, ...]]]:
     blocks = {topics.STATE: ("State", STATE_BLOCKS), topics.CONTROL: ("Control", CONTROL_BLOCKS)}
+    if estimates:
+        blocks[topics.ESTIMATE] = ("Estimate", ESTIMATE_BLOCKS)
     if level_names:
         blocks[topics.LEVELS] = ("Levels", level_blocks(level_names))
     if config.wall_times:

@@ -4,7 +4,8 @@ PROFILE = "quadlab"
 """Profile in the header of every trial log."""
 
 STATE, CONTROL, LEVELS, TIMING = "/state", "/control", "/wbc_levels", "/timing"
-"""Named scalars at the control rate."""
+ESTIMATE = "/estimate"
+"""Named scalars at the control rate; /estimate only if the controller was not given the truth."""
 
 TRANSFORMS, JOINT_STATES, FORCES, REFERENCE = "/tf", "/joint_states", "/forces", "/reference"
 """What moves in the 3-D view, at the scene rate."""

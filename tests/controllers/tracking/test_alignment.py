@@ -47,6 +47,14 @@ def test_one_misplaced_foot_moves_the_plan_by_a_quarter_of_its_error() -> None:
     np.testing.assert_allclose(alignment.position(middle) - middle, [0.01, 0.0], atol=1e-12)
 
 
+def test_heading_is_that_of_the_middle_of_the_feet() -> None:
+    """A fore foot that is misplaced sideways turns the plan by half of what the line of the left feet turns by."""
+    square = np.array([[0.3, 0.2], [0.3, -0.2], [-0.3, 0.2], [-0.3, -0.2]])
+    measured = square.copy()
+    measured[0, 1] += 0.06
+    assert feet_alignment(square, measured).yaw == pytest.approx(math.atan2(0.03, 0.6))
+
+
 @motions
 def test_planned_base_is_laid_on_the_measured_base(yaw: float, shift: tuple[float, float]) -> None:
     measured, heading = moved(TORSO, yaw, shift), 0.4 + yaw

@@ -1,87 +1,26 @@
-"""Scripted forces under the feet: which leg stands, swings or searches, and on which foothold."""
-
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+"""Scripted forces under the feet: touch-down, lost contact and search."""
 
 import numpy as np
 import pytest
-from controller_cases import gait_schedule, tracking_config
+from contact_scripts import (
+    FEET,
+    LF,
+    LH,
+    PERIOD,
+    RF,
+    RH,
+    SEARCH,
+    STANCE,
+    SWING,
+    WEIGHT,
+    Script,
+    diagonal_schedule,
+    loaded_but,
+    machine_for,
+    one_leg_schedule,
+)
 
 from quadlab.controllers.telemetry import LegMode
-from quadlab.controllers.tracking.contact_machine import ContactMachine, start_contacts
-from quadlab.gaits.schedule import ContactSchedule
-from quadlab.geometry.rotations import Array
-
-STANCE, SWING, SEARCH = LegMode.STANCE, LegMode.SWING, LegMode.SEARCH
-PERIOD, WEIGHT = 0.0025, 400.0  # [s], [N]
-FEET = np.array([[0.3, 0.2, 0.0], [0.3, -0.2, 0.0], [-0.3, 0.2, 0.0], [-0.3, -0.2, 0.0]])
-LF, RF, LH, RH = range(4)
-Loads = Callable[[float], Sequence[bool]]
-
-
-def one_leg_schedule() -> ContactSchedule:
-    """LF is in the air over [0.2, 0.5], [0.8, 1.1] and [1.4, 1.7]; the others stand."""
-    contacts = np.ones((7, 4), dtype=bool)
-    contacts[1::2, LF] = False
-    return ContactSchedule(np.full(7, 0.3) - np.array([0.1, *np.zeros(6)]), contacts)
-
-
-def diagonal_schedule() -> ContactSchedule:
-    """LF and RH are in the air over [0.2, 0.5]."""
-    contacts = np.ones((3, 4), dtype=bool)
-    contacts[1, [LF, RH]] = False
-    return ContactSchedule(np.array([0.2, 0.3, 0.3]), contacts)
-
-
-def machine_for(schedule: ContactSchedule, **changes: Any) -> ContactMachine:
-    return start_contacts(tracking_config(contact=changes).contact, schedule, WEIGHT, FEET)
-
-
-@dataclass
-class Script:
-    """Runs a machine and remembers when its modes changed.
-
-    Attributes:
-        machine: under test.
-        time_s: plan time of the last tick.
-        changes: (time, leg, new mode).
-        events: (time, text).
-    """
-
-    machine: ContactMachine
-    time_s: float = 0.0
-    changes: list[tuple[float, int, LegMode]] = field(default_factory=list)
-    events: list[tuple[float, str]] = field(default_factory=list)
-
-    def run(self, until: float, loaded: Loads, feet: Array = FEET) -> "Script":
-        """Tick on to ``until`` with forces as ``loaded`` says."""
-        while self.time_s < until - 1e-9:
-            modes = self.modes
-            forces = 0.25 * WEIGHT * np.array(loaded(self.time_s), dtype=float)
-            events = self.machine.update(self.time_s, PERIOD, feet, forces)
-            self.events += [(self.time_s, event) for event in events]
-            self.changes += [(self.time_s, leg, mode) for leg, mode in enumerate(self.modes) if mode is not modes[leg]]
-            self.time_s += PERIOD
-        return self
-
-    @property
-    def modes(self) -> list[LegMode]:
-        """Present mode of each leg."""
-        return [leg.mode for leg in self.machine.legs]
-
-    def changes_of(self, leg: int) -> list[tuple[Any, LegMode]]:
-        """(time, to one tick, and new mode) of each change of one leg."""
-        return [(pytest.approx(time, abs=1.1 * PERIOD), mode) for time, number, mode in self.changes if number == leg]
-
-
-def loaded_but(leg: int, start: float, end: float) -> Loads:
-    """All feet carry load but ``leg`` in [start, end)."""
-
-    def loads(time: float) -> list[bool]:
-        return [number != leg or not start - 1e-9 <= time < end - 1e-9 for number in range(4)]
-
-    return loads
 
 
 def test_leg_follows_the_schedule_when_the_ground_is_where_it_was_planned() -> None:
@@ -176,36 +115,6 @@ def test_leg_that_carries_the_robot_does_not_search() -> None:
     assert script.modes == [SWING, STANCE, STANCE, SWING]
 
 
-def unsupported(return_s: float) -> Loads:
-    """RF carries nothing from 0.1 s to ``return_s``; LF and RH are in the air after their planned lift-off."""
-
-    def loads(time: float) -> list[bool]:
-        return [time < 0.21, not 0.1 <= time < return_s, True, True]
-
-    return loads
-
-
-def test_lift_off_waits_until_enough_others_stand() -> None:
-    """RH may not leave while RF searches and LF swings; it leaves once RF stands again."""
-    script = Script(machine_for(diagonal_schedule(), minimum_stance_legs=2)).run(0.35, unsupported(0.3))
-    assert script.changes_of(RF) == [(0.12, SEARCH), (0.3, STANCE)]
-    assert script.changes_of(RH) == [(0.3, SWING)]
-    leg = script.machine.legs[RH]
-    assert leg.lift_off_s == pytest.approx(0.3, abs=1.1 * PERIOD)
-    assert leg.touch_down_due_s == pytest.approx(0.5)
-    assert leg.swing_phase(0.4) == pytest.approx(0.5, abs=0.01)
-
-
-def test_lift_off_that_had_to_wait_too_long_is_skipped() -> None:
-    machine = machine_for(diagonal_schedule(), minimum_stance_legs=2, latest_lift_off=0.7)
-    script = Script(machine).run(0.5, unsupported(0.45))
-    assert script.changes_of(RH) == []
-    assert machine.legs[RH].foothold == 1
-    ((time, text),) = [event for event in script.events if event[1].startswith("RH")]
-    assert text == "RH swing skipped: too few other legs stood"
-    assert time == pytest.approx(0.2 + 0.7 * 0.3, abs=1.5 * PERIOD)
-
-
 def test_slipping_foot_moves_its_stance_point() -> None:
     machine = machine_for(one_leg_schedule(), slip_m=0.02)
     forward = np.array([1.0, 0.0, 0.0])
@@ -217,68 +126,32 @@ def test_slipping_foot_moves_its_stance_point() -> None:
 
 
 def test_points_of_lift_off_and_touch_down_are_measured() -> None:
-    machine = machine_for(one_leg_schedule())
-    script = Script(machine).run(0.25, lambda _: [True] * 4)
-    np.testing.assert_array_equal(machine.legs[LF].lift_off_point, FEET[LF])
+    machine = machine_for(one_leg_schedule(), slip_m=1.0)
+    nudged = FEET + np.array([0.01, 0.0, 0.0])
+    script = Script(machine).run(0.25, lambda _: [True] * 4, nudged)
+    np.testing.assert_array_equal(machine.legs[LF].lift_off_point, nudged[LF])
+    np.testing.assert_array_equal(machine.legs[LF].stance_point, nudged[LF])
+    np.testing.assert_array_equal(machine.legs[RF].stance_point, FEET[RF])
     landed = FEET + np.array([0.1, 0.0, 0.03])
     script.run(0.6, loaded_but(LF, 0.2, 0.48), landed)
     np.testing.assert_array_equal(machine.legs[LF].stance_point, landed[LF])
 
 
-def random_loads(generator: np.random.Generator, schedule: ContactSchedule) -> Loads:
-    """Load as planned, turned over for random spells."""
-    spells = [
-        (leg, start, start + length)
-        for leg, start, length in zip(
-            generator.integers(0, 4, 30),
-            generator.uniform(0.0, schedule.duration_s, 30),
-            generator.exponential(0.12, 30),
-            strict=True,
-        )
-    ]
-
-    def loads(time: float) -> list[bool]:
-        planned = schedule.contacts_at(time).copy()
-        for leg, start, end in spells:
-            if start <= time < end:
-                planned[leg] = not planned[leg]
-        return [bool(flag) for flag in planned]
-
-    return loads
+def test_search_begins_where_the_foot_is_and_at_no_depth() -> None:
+    machine = machine_for(one_leg_schedule(), slip_m=1.0)
+    script = Script(machine).run(0.1, loaded_but(RH, 0.02, 0.08))
+    moved = FEET + np.array([0.0, 0.0, 0.05])
+    script.run(0.15, loaded_but(RH, 0.1, 9.0), moved)
+    began_s = script.changes[-1][0]
+    assert script.modes[RH] is SEARCH
+    np.testing.assert_array_equal(machine.legs[RH].lift_off_point, moved[RH])
+    expected = machine.config.search_speed_mps * (script.time_s - began_s)
+    assert machine.legs[RH].search_depth == pytest.approx(expected, abs=2.0 * machine.config.search_speed_mps * PERIOD)
 
 
-@pytest.mark.parametrize("gait", ["trot", "walk"])
-@pytest.mark.parametrize("seed", range(6))
-def test_footholds_stay_in_step_with_the_schedule(gait: str, seed: int) -> None:
-    """Whatever the feet feel: a standing leg is on a foothold it has reached by plan, and no foothold is revisited."""
-    schedule = gait_schedule(gait, {"trot": 4.5, "walk": 12.5}[gait])
-    script = Script(machine_for(schedule))
-    loads = random_loads(np.random.default_rng(seed), schedule)
-    before = [0] * 4
-    while script.time_s < schedule.duration_s:
-        now = script.time_s
-        script.run(now + PERIOD, loads)
-        for number, leg in enumerate(script.machine.legs):
-            completed, swing = schedule.swing_at(number, now)
-            assert leg.foothold in allowed_footholds(leg.mode, leg.completes_swing, completed, swing is not None)
-            assert before[number] <= leg.foothold <= len(schedule.swings[number])
-            assert leg.mode is not SWING or leg.lift_off_s <= now <= leg.touch_down_due_s + PERIOD
-        before = [leg.foothold for leg in script.machine.legs]
-
-
-def allowed_footholds(mode: LegMode, completes_swing: bool, completed: int, in_swing: bool) -> set[int]:
-    if mode is SWING:
-        return {completed}
-    if mode is SEARCH and completes_swing:
-        return {completed - 1}
-    return {completed, completed + 1} if in_swing else {completed}
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_enough_legs_stand_whatever_the_feet_feel(seed: int) -> None:
-    schedule = gait_schedule("trot", 4.5)
-    script = Script(machine_for(schedule, minimum_stance_legs=2))
-    loads = random_loads(np.random.default_rng(seed), schedule)
-    while script.time_s < schedule.duration_s:
-        script.run(script.time_s + PERIOD, loads)
-        assert script.machine.stance.sum() >= 2
+@pytest.mark.parametrize(("share", "mode"), [(0.026, SEARCH), (0.028, STANCE)])
+def test_contact_is_a_share_of_the_weight(share: float, mode: LegMode) -> None:
+    machine = machine_for(one_leg_schedule(), touch_down_force_share=0.027)
+    for step in range(40):
+        machine.update(step * PERIOD, PERIOD, FEET, WEIGHT * np.array([share, 0.3, 0.3, 0.3]))
+    assert machine.legs[LF].mode is mode

@@ -65,9 +65,9 @@ def test_ground_axes_are_a_right_handed_frame_of_the_plane(yaw: float, slope: tu
 
 
 @yaws
-@pytest.mark.parametrize("slope", [(0.0, 0.0), (0.4, 0.0), (-0.2, 0.3)])
-def test_first_ground_axis_is_the_heading_laid_on_the_ground(yaw: float, slope: tuple[float, float]) -> None:
-    terrain = TerrainPlane(np.zeros(2), 0.0, np.array(slope))
-    level = np.array([math.cos(yaw), math.sin(yaw), 0.0])
-    projected = level - (level @ terrain.normal) * terrain.normal
-    np.testing.assert_allclose(ground_axes(yaw, terrain)[:, 0], projected / np.linalg.norm(projected), atol=1e-12)
+@pytest.mark.parametrize(("forward", "left"), [(0.0, 0.0), (0.4, 0.0), (0.0, -0.3)])
+def test_first_ground_axis_is_the_heading(yaw: float, forward: float, left: float) -> None:
+    """On ground that rises along or across the heading there is only one direction that it can be laid to."""
+    heading = ground_axes(yaw, sloped(forward, left, yaw))[:, 0]
+    assert math.atan2(heading[1], heading[0]) == pytest.approx(yaw)
+    assert steepness(heading) == pytest.approx(forward, abs=1e-12)

@@ -1,45 +1,19 @@
-"""From plan and state to references: alignment, terrain, swing feet and the plan's clock at work together."""
+"""From plan and state to references: alignment, terrain, contacts and the plan's clock at work together."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
-from controller_cases import gait_schedule, moved_state, standing_schedule, tracking_config, uniform_plan
+from controller_cases import moved_state, standing_schedule, uniform_plan
+from tracking_cases import PERIOD, SWING, TROT, track, tracker_for
 
 from quadlab.controllers.telemetry import LegMode
-from quadlab.controllers.tracking.tracker import MotionTracker, TrackedTick
-from quadlab.geometry.rotations import Array, euler_zyx, matrix_to_quat, rotation_2d, rotation_zyx, yaw_of
-from quadlab.planners.plan import MotionPlan
+from quadlab.estimation.terrain_plane import fit_plane
+from quadlab.geometry.rotations import euler_zyx, matrix_to_quat, rotation_2d, rotation_zyx, yaw_of
+from quadlab.geometry.splines import PiecewisePolynomial
 from quadlab.robots.model import RobotModel
 from quadlab.robots.state import RobotState
-
-PERIOD = 0.0025  # [s]
-SWING = 0.675  # [s] a time in the first swing of the shipped trot, in which LF and RH are in the air
-TROT = gait_schedule("trot", 2.9)
-
-
-def tracker_for(robot: RobotModel, plan: MotionPlan, start: RobotState, **changes: Any) -> MotionTracker:
-    return MotionTracker(tracking_config(**changes), robot, PERIOD, plan, robot.kinematics(start))
-
-
-def track(
-    tracker: MotionTracker,
-    state: RobotState,
-    start_s: float,
-    end_s: float,
-    loaded: Sequence[int] | None = None,
-) -> TrackedTick:
-    """Last of the ticks over [start_s, end_s] with a robot that does not move, loaded as planned unless said."""
-    kinematics, weight = tracker.robot.kinematics(state), tracker.robot.mass * 9.81
-    for step in range(round((end_s - start_s) / PERIOD) + 1):
-        time = start_s + step * PERIOD
-        flags = tracker.plan.schedule.contacts_at(time)
-        loads = [flags[leg] if loaded is None else leg in loaded for leg in range(4)]
-        tick = tracker.update(time, kinematics, 0.25 * weight * np.array(loads))
-    return tick
 
 
 @pytest.mark.parametrize("torso", ["none", "base", "feet"])
@@ -104,6 +78,10 @@ def test_torso_follows_a_share_of_the_slope_under_the_feet(robot: RobotModel, pi
     _, pitch_reference, roll_reference = euler_zyx(tick.reference.base_rotation)
     assert math.tan(pitch_reference) == pytest.approx(0.5 * math.tan(pitch), abs=1e-3)
     assert math.tan(roll_reference) == pytest.approx(0.5 * math.tan(roll), abs=1e-3)
+    np.testing.assert_allclose(tick.reference.ground_axes[:, 2], tick.terrain.normal)
+    under_base = fit_plane(robot.kinematics(state).foot_positions, state.position_base_in_world[:2]).height
+    standing_height = float(robot.nominal_state().position_base_in_world[2])
+    assert tick.reference.base_height == pytest.approx(under_base + standing_height)
 
 
 def test_base_keeps_its_height_over_the_ground_under_it(robot: RobotModel) -> None:
@@ -114,57 +92,29 @@ def test_base_keeps_its_height_over_the_ground_under_it(robot: RobotModel) -> No
     assert track(tracker, lifted, 0.0, 0.0).reference.base_height == pytest.approx(standing_height + 0.25)
 
 
-def swing_end(robot: RobotModel, state: RobotState, velocity: tuple[float, float], alignment: str) -> Array:
-    """References at the end of the first swing, without foothold correction, (4, 3)."""
-    plan = uniform_plan(robot, TROT, velocity)
-    settings = {"alignment": {"torso": "none", "swing": alignment}, "swing": {"feedback": 0.0}}
-    tracker = tracker_for(robot, plan, state, **settings)
-    end_s = plan.schedule.swings[0][0].end_s - PERIOD
-    return track(tracker, state, 0.6, end_s).reference.foot_positions
+def test_terrain_follows_the_feet_with_its_time_constant(robot: RobotModel) -> None:
+    """All feet found 0.1 m higher than they were: after one time constant 1 / e of the step is left."""
+    nominal = robot.nominal_state()
+    raised = replace(nominal, position_base_in_world=nominal.position_base_in_world + np.array([0.0, 0.0, 0.1]))
+    plan = uniform_plan(robot, standing_schedule())
+    tracker = tracker_for(robot, plan, nominal, torso={"terrain_time_constant_s": 0.1})
+    tick = track(tracker, raised, 0.0, 0.1 - PERIOD)
+    assert tick.terrain.height == pytest.approx(0.1 * (1.0 - math.exp(-1.0)), rel=0.02)
 
 
-def test_swing_ends_at_the_planned_foothold_just_below_the_ground(robot: RobotModel) -> None:
-    feet = swing_end(robot, robot.nominal_state(), (0.1, 0.0), "none")
-    plan = uniform_plan(robot, TROT, (0.1, 0.0))
-    depth = 0.008 * float(robot.nominal_state().position_base_in_world[2])
-    for leg in (0, 3):
-        np.testing.assert_allclose(feet[leg], plan.footholds[leg][1] - [0.0, 0.0, depth], atol=1e-3)
-    assert np.isnan(feet[[1, 2]]).all()
-
-
-def test_foothold_goes_with_the_displaced_base(robot: RobotModel) -> None:
-    """Base-centred: the foothold keeps its place relative to the planned CoM."""
-    shift = np.array([0.1, 0.05])
-    state = moved_state(robot.nominal_state(), shift, 0.0)
-    feet = swing_end(robot, state, (0.1, 0.0), "base")
-    plan = uniform_plan(robot, TROT, (0.1, 0.0))
-    com = robot.kinematics(state).com_position[:2]
-    planned_com = plan.at(plan.schedule.swings[0][0].end_s - PERIOD).com_position[:2]
-    for leg in (0, 3):
-        np.testing.assert_allclose(feet[leg, :2] - com, plan.footholds[leg][1, :2] - planned_com, atol=1e-3)
-
-
-def test_pushed_robot_steps_towards_the_push(robot: RobotModel) -> None:
-    pushed = replace(robot.nominal_state(), linear_velocity_base_in_world=np.array([0.0, 0.2, 0.0]))
-    ends = []
-    for state in (robot.nominal_state(), pushed):
-        tracker = tracker_for(robot, uniform_plan(robot, TROT), robot.nominal_state())
-        ends.append(track(tracker, state, 0.6, TROT.swings[0][0].end_s - PERIOD).reference.foot_positions)
-    height = robot.kinematics(pushed).com_position[2]
-    step = (ends[1] - ends[0])[[0, 3], :2]
-    np.testing.assert_allclose(step, np.tile([0.0, 0.2 * math.sqrt(height / 9.81)], (2, 1)), rtol=0.03, atol=1e-9)
-
-
-def test_late_foot_is_sent_straight_down_with_the_search_speed(robot: RobotModel) -> None:
-    tracker = tracker_for(robot, uniform_plan(robot, TROT), robot.nominal_state(), contact={"search_speed_mps": 0.4})
-    end_s = TROT.swings[0][0].end_s
-    track(tracker, robot.nominal_state(), 0.6, end_s - PERIOD)
-    late = track(tracker, robot.nominal_state(), end_s, end_s + 0.02, loaded=[1, 2, 3])
-    start = robot.kinematics(robot.nominal_state()).foot_positions[0]
-    assert late.modes == (LegMode.SEARCH, LegMode.STANCE, LegMode.STANCE, LegMode.STANCE)
-    reference = late.reference
-    np.testing.assert_allclose(reference.foot_positions[0], start - [0.0, 0.0, 0.4 * 0.02], atol=0.4 * 2 * PERIOD)
-    np.testing.assert_allclose(reference.foot_velocities[0], [0.0, 0.0, -0.4])
+def test_acceleration_and_turning_of_the_plan_are_fed_forward_in_the_world(robot: RobotModel) -> None:
+    yaw, knots = 0.5, np.array([0.0, 10.0])
+    plan = uniform_plan(robot, standing_schedule())
+    com = np.array([[plan.com(0.0), [0.1, 0.0, 0.0], [0.2, -0.05, 0.0]]])
+    plan = replace(
+        plan, com=PiecewisePolynomial(knots, com), heading=PiecewisePolynomial(knots, np.array([[[0.0], [0.3]]]))
+    )
+    state = moved_state(robot.nominal_state(), np.zeros(2), yaw)
+    tracker = tracker_for(robot, plan, state, alignment={"torso": "feet", "time_constant_s": 0.02})
+    tick = track(tracker, state, 0.0, 0.5)
+    np.testing.assert_allclose(tick.reference.com_acceleration, rotation_2d(yaw) @ [0.4, -0.1], atol=1e-6)
+    np.testing.assert_allclose(tick.reference.base_angular_velocity, [0.0, 0.0, 0.3], atol=1e-12)
+    assert yaw_of(tick.reference.base_rotation) == pytest.approx(yaw + 0.3 * 0.5)
 
 
 @pytest.mark.parametrize("freeze", [False, True])

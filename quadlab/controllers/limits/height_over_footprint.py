@@ -1,0 +1,45 @@
+"""Height of the base over its footprint (Bellicoso 2016, Eq. 32-34)."""
+
+from typing import Literal
+
+from quadlab.configuration import Positive, StrictModel, register
+from quadlab.controllers.limits.second_order import position_limit
+from quadlab.controllers.reference import ControlReference
+from quadlab.controllers.tasks.task import TaskRows
+from quadlab.robots.kinematics import Kinematics
+
+
+@register("task", "height_over_footprint")
+class HeightOverFootprintLimit:
+    """h_min <= z_B - h_z <= h_max with h_z the mean height of the standing feet."""
+
+    class Config(StrictModel):
+        """How high the base may be.
+
+        Attributes:
+            minimum, maximum: as a share of the standing base height.
+            look_ahead_s: k_t t_s of Eq. (27) in [s].
+        """
+
+        task: Literal["height_over_footprint"]
+        minimum: Positive
+        maximum: Positive
+        look_ahead_s: Positive
+
+    def __init__(self, config: Config) -> None:
+        self.config = config
+
+    def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
+        """Return one row in accelerations."""
+        footprint = kinematics.foot_positions[reference.stance_legs, 2].mean()
+        return position_limit(
+            kinematics.base_jacobian[2:3],
+            kinematics.base_bias[2:3],
+            kinematics.base_position[2:3] - footprint,
+            kinematics.base_linear_velocity[2:3],
+            (
+                self.config.minimum * reference.standing_height,
+                self.config.maximum * reference.standing_height,
+            ),
+            self.config.look_ahead_s,
+        )

@@ -1,0 +1,29 @@
+"""Limits on positions as limits on accelerations (Bellicoso 2016, Eq. 25-27)."""
+
+from quadlab.controllers.tasks.task import TaskRows, Variable
+from quadlab.geometry.rotations import Array
+
+
+def position_limit(
+    jacobian: Array,
+    bias: Array,
+    position: Array,
+    velocity: Array,
+    bounds: tuple[Array | float, Array | float],
+    dt: float,
+) -> TaskRows:
+    """Return rows that keep r + r_dot dt + r_ddot dt^2 / 2 within bounds, r_ddot = J u_dot + J_dot u.
+
+    The rows of Eq. (27) are divided by dt^2 / 2, so that their slacks are accelerations like those of other tasks.
+
+    Args:
+        jacobian: J, (m, 18).
+        bias: J_dot u, (m,).
+        position, velocity: r and r_dot, (m,).
+        bounds: r_min and r_max, (m,) or one number for all.
+        dt: look-ahead k_t t_s in [s]; the larger, the softer.
+    """
+    scale = 2.0 / dt**2
+    offset = bias + scale * dt * velocity
+    lower, upper = (scale * (bound - position) - offset for bound in bounds)
+    return TaskRows(Variable.ACCELERATION, jacobian, lower, upper)

@@ -1,0 +1,48 @@
+"""The part of a controller that finds torques for the reference of a tick; what controller variants differ in."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from quadlab.controllers.reference import ControlReference
+from quadlab.geometry.rotations import Array
+from quadlab.robots.kinematics import Kinematics
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """The answer for one tick.
+
+    Attributes:
+        torques: (12,) in [N m].
+        accelerations: generalised accelerations that the model expects of them, (18,).
+        contact_forces: that the model expects, (4, 3) in [N]; zero for legs in the air.
+        residuals: norm of the unmet part of each level by name.
+        iterations: of the solver.
+        solved: whether the solver finished; if not, ``torques`` is not to be used.
+    """
+
+    torques: Array
+    accelerations: Array
+    contact_forces: Array
+    residuals: dict[str, float]
+    iterations: int
+    solved: bool
+
+
+class Resolver(Protocol):
+    """What every variant of whole-body control can do."""
+
+    @property
+    def level_names(self) -> tuple[str, ...]:
+        """Names of the residuals, in order of priority."""
+        ...
+
+    def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
+        """Return torques for this tick.
+
+        Args:
+            kinematics: measured.
+            reference: what shall happen.
+            last_torques: of the tick before, (12,) in [N m]; where the solver starts.
+        """
+        ...

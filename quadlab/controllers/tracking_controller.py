@@ -1,0 +1,82 @@
+"""The controller: measured state and plan to reference, reference to torques."""
+
+import time
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from quadlab.configuration import part_of
+from quadlab.controllers.controller_config import JointPdConfig, TrackingControllerConfig
+from quadlab.controllers.joint_reference import joint_drive
+from quadlab.controllers.resolver import Resolution, Resolver
+from quadlab.controllers.telemetry import ControlTelemetry
+from quadlab.controllers.tick_report import describe_tick
+from quadlab.controllers.tracking.tracker import MotionTracker
+from quadlab.errors import QuadlabError
+from quadlab.planners.plan import MotionPlan
+from quadlab.robots.legs import JOINT_COUNT
+from quadlab.robots.model import RobotModel
+from quadlab.robots.state import JointCommand, RobotState
+
+
+def build_controller(config: Any, robot: RobotModel) -> "TrackingController":
+    """Return the controller that ``config``, of any registered kind, describes."""
+    resolver: Any = part_of("controller", config)
+    return TrackingController(config, robot, resolver(config))
+
+
+class TrackingController:
+    """Follows one plan at a time with one way to resolve references into torques."""
+
+    def __init__(self, config: TrackingControllerConfig, robot: RobotModel, resolver: Resolver) -> None:
+        self.config = config
+        self.robot = robot
+        self.resolver = resolver
+        self.period_s = 1.0 / config.rate_hz
+        self.level_names = resolver.level_names
+        self.fallbacks = 0
+        self._tracker: MotionTracker | None = None
+        self._start_s = 0.0
+        self._torques = np.zeros(JOINT_COUNT)
+
+    def start(self, plan: MotionPlan, state: RobotState) -> None:
+        """Begin to follow ``plan``, whose time 0 is the time of ``state``."""
+        kinematics = self.robot.kinematics(state)
+        self._start_s = state.time_s
+        self._tracker = MotionTracker(self.config.tracking, self.robot, self.period_s, plan, kinematics)
+
+    def tick(self, state: RobotState) -> tuple[JointCommand, ControlTelemetry]:
+        """Return torques for the next control period.
+
+        Raises:
+            QuadlabError: if no plan was started.
+        """
+        if self._tracker is None:
+            raise QuadlabError("controller: tick before start; call start(plan, state) first")
+        began = time.perf_counter()
+        kinematics = self.robot.kinematics(state)
+        modelled = time.perf_counter()
+        tracked = self._tracker.update(state.time_s - self._start_s, kinematics, state.foot_forces_in_world[:, 2])
+        referenced = time.perf_counter()
+        resolution = self.resolver.resolve(kinematics, tracked.reference, self._torques)
+        accepted = self._accept(resolution)
+        solved = time.perf_counter()
+        telemetry = describe_tick(
+            tracked,
+            kinematics,
+            accepted,
+            fallbacks=self.fallbacks,
+            timings_us=(1e6 * (modelled - began), 1e6 * (referenced - modelled), 1e6 * (solved - referenced)),
+        )
+        drive_config: JointPdConfig | None = self.config.joint_pd
+        drive = joint_drive(drive_config, kinematics, tracked.reference, accepted) if drive_config else None
+        return JointCommand(accepted.torques, drive), telemetry
+
+    def _accept(self, resolution: Resolution) -> Resolution:
+        """Take the resolver's answer, or count it and keep the last torques if it did not finish."""
+        if resolution.solved:
+            self._torques = resolution.torques
+            return resolution
+        self.fallbacks += 1
+        return replace(resolution, torques=self._torques, accelerations=np.zeros_like(resolution.accelerations))

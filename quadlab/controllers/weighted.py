@@ -1,0 +1,79 @@
+"""Weighted whole-body control: the tasks of the hierarchy in one quadratic program; limits stay hard."""
+
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from pydantic import Field, field_validator, model_validator
+
+from quadlab.configuration import Positive, register
+from quadlab.controllers.controller_config import TrackingControllerConfig
+from quadlab.controllers.hierarchical import resolve_levels
+from quadlab.controllers.hierarchy import StackedLevels
+from quadlab.controllers.reduced_dynamics import reduce_dynamics
+from quadlab.controllers.reference import ControlReference
+from quadlab.controllers.resolver import Resolution
+from quadlab.controllers.task_levels import LevelConfig, check_level_names
+from quadlab.controllers.task_stack import TaskStack
+from quadlab.geometry.rotations import Array
+from quadlab.robots.kinematics import Kinematics
+
+
+@register("controller", "weighted")
+class WeightedResolver:
+    """min sum_k weight_k |A_k x - b_k|^2 under hard dynamics, contacts and limits.
+
+    The same levels as ``hierarchical``: those without a weight are limits, in their order (torque limits always have a
+    solution; friction gives way only to them), the others share one objective.
+    """
+
+    class Config(TrackingControllerConfig):
+        """Tasks, weights and tracking.
+
+        Attributes:
+            levels: as of the hierarchical controller; levels without a weight come first.
+            weights: of the squared residuals, by level name.
+        """
+
+        kind: Literal["weighted"]
+        levels: Annotated[tuple[LevelConfig, ...], Field(min_length=1)]
+        weights: Annotated[dict[str, Positive], Field(min_length=1)]
+
+        @field_validator("levels")
+        @classmethod
+        def _unique_names(cls, levels: tuple[LevelConfig, ...]) -> tuple[LevelConfig, ...]:
+            return check_level_names(levels)
+
+        @model_validator(mode="after")
+        def _weights_name_the_last_levels(self) -> Self:
+            names = [level.name for level in self.levels]
+            if set(names[len(names) - len(self.weights) :]) != set(self.weights):
+                raise ValueError(
+                    f"weights must name the last levels, all limits before them; "
+                    f"levels are {', '.join(names)}, weights name {', '.join(self.weights)}"
+                )
+            return self
+
+    def __init__(self, config: Config) -> None:
+        self.config = config
+        self._stack = TaskStack(config.levels)
+        self._limits = len(config.levels) - len(config.weights)
+        self._roots = np.sqrt([config.weights[name] for name in self._stack.names[self._limits :]])
+        self.level_names = (*self._stack.names[: self._limits], "weighted")
+
+    def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
+        """Return the torques of the weighted optimum."""
+        dynamics = reduce_dynamics(kinematics, reference.stance_legs)
+        levels = self._merged(self._stack.assemble(kinematics, reference, dynamics))
+        return resolve_levels(self.level_names, levels, dynamics, reference, last_torques)
+
+    def _merged(self, levels: StackedLevels) -> StackedLevels:
+        """Scale the weighted levels by the roots of their weights and make one level of them."""
+        breaks = levels.breaks
+        scale = np.ones(breaks[-1])
+        scale[breaks[self._limits] :] = np.repeat(self._roots, np.diff(breaks[self._limits :]))
+        return StackedLevels(
+            levels.matrix * scale[:, None],
+            levels.lower * scale,
+            levels.upper * scale,
+            np.concatenate([breaks[: self._limits + 1], breaks[-1:]]),
+        )

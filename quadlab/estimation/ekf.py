@@ -1,0 +1,225 @@
+"""An extended Kalman filter that fuses inertial unit, leg kinematics and contacts (Bloesch 2012).
+
+Roll, pitch, velocity and the biases are observable; position and heading are not and drift (Bloesch 2012, IV-B).
+"""
+
+import time
+from typing import Literal
+
+import numpy as np
+
+from quadlab.configuration import NonNegative, StrictModel, register
+from quadlab.estimation.contact_detection import ContactDetectionConfig, ContactDetector
+from quadlab.estimation.correction import Correction, LegMeasurementConfig, correct, foot_innovations, place_foot
+from quadlab.estimation.error_state import (
+    ACCELEROMETER_BIAS,
+    ERROR_SIZE,
+    GYRO_BIAS,
+    ORIENTATION,
+    POSITION,
+    VELOCITY,
+    FilterState,
+    box_plus,
+)
+from quadlab.estimation.estimate import Estimate, FilterReport
+from quadlab.estimation.leg_kinematics import LegKinematics, LegModel
+from quadlab.estimation.prediction import (
+    ProcessNoiseConfig,
+    error_dynamics,
+    inertial_step,
+    predict_state,
+    process_noise,
+)
+from quadlab.gaits.schedule import BoolArray
+from quadlab.geometry.rotations import Array, matrix_to_quat
+from quadlab.planners.problem import GRAVITY
+from quadlab.robots.legs import LEG_COUNT
+from quadlab.robots.model import RobotModel
+from quadlab.robots.sensing import ContactSensing, SensorConfig, SensorReading
+from quadlab.robots.state import RobotState
+
+_INITIAL_ERROR_STREAM = 2
+"""Key of the random numbers of the first error; those of the sensors have another."""
+
+_KNOWN = 1e-6
+"""Standard deviation in [m] and [rad] of position and heading at the start, where they define the world frame."""
+
+_UNKNOWN_FOOT_M = 1.0
+
+
+class InitialUncertaintyConfig(StrictModel):
+    """Standard deviations at the start; tilt and velocity are wrong by a draw from them, the biases begin at zero.
+
+    Attributes:
+        tilt_rad: of roll and pitch in [rad].
+        velocity_mps: of each component in [m/s].
+        gyro_bias_radps, accelerometer_bias_mps2: of each component in [rad/s] and [m/s^2].
+    """
+
+    tilt_rad: NonNegative
+    velocity_mps: NonNegative
+    gyro_bias_radps: NonNegative
+    accelerometer_bias_mps2: NonNegative
+
+
+@register("estimator", "ekf")
+class ExtendedKalmanFilter:
+    """Predicts with the inertial unit, corrects with the feet that stand.
+
+    Attributes:
+        sensors: errors of the sensors that it is given.
+        state: what the filter believes.
+        covariance: of its error, (27, 27).
+    """
+
+    class Config(StrictModel):
+        """The sensors as they are, and what the filter reckons with.
+
+        Attributes:
+            contact_sensing: where the forces under the feet come from.
+            sensors: errors of the simulated sensors.
+            process_noise, leg_measurement, initial: what the filter reckons with.
+            contact: contact detection.
+        """
+
+        kind: Literal["ekf"]
+        contact_sensing: ContactSensing
+        sensors: SensorConfig
+        process_noise: ProcessNoiseConfig
+        leg_measurement: LegMeasurementConfig
+        initial: InitialUncertaintyConfig
+        contact: ContactDetectionConfig
+
+    def __init__(self, config: Config, robot: RobotModel, period_s: float, seed: int) -> None:
+        self.config = config
+        self.sensors = config.sensors
+        self.covariance = _initial_covariance(config.initial)
+        self.state: FilterState
+        self._period_s = period_s
+        self._seed = seed
+        self._foot_radius = robot.foot_radius
+        self._legs = LegModel(robot)
+        self._detector = ContactDetector(config.contact, robot.mass * GRAVITY, period_s)
+        self._standing = np.zeros(LEG_COUNT, dtype=bool)
+        self._refusals = np.zeros(LEG_COUNT, dtype=int)
+        self._outliers = 0
+        self._joint_velocities = np.zeros(3 * LEG_COUNT)
+        self._foot_spins = np.zeros((LEG_COUNT, 3))
+
+    def start(self, reading: SensorReading, true_state: RobotState) -> Estimate:
+        """Begin at ``true_state``, whose position and heading define the world, with errors in tilt and velocity."""
+        legs = self._legs.kinematics(reading.joint_positions, reading.joint_velocities)
+        rotation, position = true_state.rotation_base_to_world, true_state.position_base_in_world
+        truth = FilterState(
+            position=position,
+            velocity=true_state.linear_velocity_base_in_world,
+            rotation=rotation,
+            feet=position + legs.foot_centers @ rotation.T,
+            accelerometer_bias=np.zeros(3),
+            gyro_bias=np.zeros(3),
+        )
+        random = np.random.default_rng(np.random.SeedSequence(self._seed, spawn_key=(_INITIAL_ERROR_STREAM,)))
+        error = np.zeros(ERROR_SIZE)
+        error[ORIENTATION][:2] = self.config.initial.tilt_rad * random.standard_normal(2)
+        error[VELOCITY] = self.config.initial.velocity_mps * random.standard_normal(3)
+        # The base stays where it is: dr makes up for turning about the world's origin.
+        tilted = box_plus(truth, error)
+        error[POSITION] = truth.position - tilted.position
+        self.state = box_plus(truth, error)
+        self._remember(reading, legs)
+        report = self._report(Correction(self.state, self.covariance), np.zeros(LEG_COUNT, dtype=bool), 0.0)
+        return Estimate(self._robot_state(reading, reading.foot_forces_in_base @ self.state.rotation.T), report)
+
+    def update(self, reading: SensorReading, true_state: RobotState) -> Estimate:
+        """Return the estimate at ``reading``, one control period after the last; ``true_state`` is not looked at."""
+        began = time.perf_counter()
+        legs = self._legs.kinematics(reading.joint_positions, reading.joint_velocities)
+        self._predict(reading, legs)
+        forces = self._foot_forces(reading, legs)
+        landed = self._detect(forces)
+        correction, used = self._correct(legs, landed)
+        self._remember(reading, legs)
+        update_us = 1e6 * (time.perf_counter() - began)
+        return Estimate(self._robot_state(reading, forces), self._report(correction, used, update_us))
+
+    def _predict(self, reading: SensorReading, legs: LegKinematics) -> None:
+        spins = 0.5 * (self._foot_spins + legs.foot_spins)
+        step = inertial_step(self.state, reading, spins, self._period_s)
+        self.state = predict_state(self.state, step, self._foot_radius)
+        dynamics = error_dynamics(self.state, step, self._foot_radius)
+        noise = process_noise(dynamics, self.config.process_noise, self._standing, self._period_s)
+        self.covariance = dynamics @ self.covariance @ dynamics.T + noise
+
+    def _foot_forces(self, reading: SensorReading, legs: LegKinematics) -> Array:
+        """Return the forces under the feet in world components, (4, 3) in [N]."""
+        forces = reading.foot_forces_in_base
+        if self.config.contact_sensing is ContactSensing.TORQUES:
+            accelerations = (reading.joint_velocities - self._joint_velocities) / self._period_s
+            forces = self._legs.foot_forces(reading, legs, accelerations)
+        in_world: Array = forces @ self.state.rotation.T
+        return in_world
+
+    def _detect(self, forces: Array) -> BoolArray:
+        """Update which feet stand; return those that have just begun to."""
+        before = self._standing
+        self._standing = self._detector.update(forces[:, 2])
+        landed: BoolArray = self._standing & ~before
+        return landed
+
+    def _correct(self, legs: LegKinematics, landed: BoolArray) -> tuple[Correction, BoolArray]:
+        """Correct by the feet that keep standing, then place those that landed or slipped too long."""
+        config = self.config.leg_measurement
+        innovations = foot_innovations(self.state, self.covariance, legs, config)
+        fitting = innovations.distances <= config.gate
+        measured = self._standing & ~landed
+        refused = measured & ~fitting
+        correction = correct(self.state, self.covariance, innovations, measured & fitting)
+        self.state, self.covariance = correction.state, correction.covariance
+        self._outliers += int(refused.sum())
+        self._refusals = np.where(refused, self._refusals + 1, 0)
+        for leg in np.flatnonzero(landed | (self._refusals > config.patience_ticks)).tolist():
+            noise = innovations.noise[leg]
+            self.state, self.covariance = place_foot(self.state, self.covariance, legs, noise, leg)
+            self._refusals[leg] = 0
+        return correction, measured & fitting
+
+    def _remember(self, reading: SensorReading, legs: LegKinematics) -> None:
+        self._joint_velocities, self._foot_spins = reading.joint_velocities, legs.foot_spins
+
+    def _robot_state(self, reading: SensorReading, forces: Array) -> RobotState:
+        return RobotState(
+            time_s=reading.time_s,
+            position_base_in_world=self.state.position,
+            quat_wxyz=matrix_to_quat(self.state.rotation),
+            joint_positions=reading.joint_positions,
+            linear_velocity_base_in_world=self.state.velocity,
+            angular_velocity_base_in_base=reading.gyro - self.state.gyro_bias,
+            joint_velocities=reading.joint_velocities,
+            foot_forces_in_world=forces,
+        )
+
+    def _report(self, correction: Correction, used: BoolArray, update_us: float) -> FilterReport:
+        deviations = np.sqrt(np.diag(self.covariance))
+        return FilterReport(
+            accelerometer_bias=self.state.accelerometer_bias,
+            gyro_bias=self.state.gyro_bias,
+            contacts=self._standing,
+            used=used,
+            position_std=deviations[POSITION],
+            velocity_std=deviations[VELOCITY],
+            orientation_std=deviations[ORIENTATION],
+            innovation_squared=correction.innovation_squared,
+            innovation_size=3 * int(used.sum()),
+            outliers=self._outliers,
+            update_us=update_us,
+        )
+
+
+def _initial_covariance(config: InitialUncertaintyConfig) -> Array:
+    deviations = np.full(ERROR_SIZE, _UNKNOWN_FOOT_M)
+    deviations[POSITION] = _KNOWN
+    deviations[VELOCITY] = max(config.velocity_mps, _KNOWN)
+    deviations[ORIENTATION] = [*np.maximum(np.full(2, config.tilt_rad), _KNOWN), _KNOWN]
+    deviations[ACCELEROMETER_BIAS] = max(config.accelerometer_bias_mps2, _KNOWN)
+    deviations[GYRO_BIAS] = max(config.gyro_bias_radps, _KNOWN)
+    return np.diag(deviations**2)

@@ -1,0 +1,71 @@
+"""Exact motion of a linear inverted pendulum whose centre of pressure moves along straight lines."""
+
+import math
+from bisect import bisect_right
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quadlab.geometry.rotations import Array
+
+
+@dataclass(frozen=True)
+class LipCurve:
+    """n pieces c(s) = a + b s + p cosh(w s) + q sinh(w s), each in its local time s.
+
+    It solves c_ddot = w^2 (c - u) for u(s) = a + b s. Outside its span it continues at rest: the end value, with zero
+    derivatives.
+
+    Attributes:
+        knots: (n + 1,) increasing times in [s].
+        coefficients: a, b, p, q of each piece, (n, 4, d).
+        rate: w in [1/s].
+    """
+
+    knots: Array
+    coefficients: Array
+    rate: float
+
+    @cached_property
+    def _knot_list(self) -> list[float]:
+        return [float(knot) for knot in self.knots]
+
+    @property
+    def dimension(self) -> int:
+        """Number of components d of the curve."""
+        return int(self.coefficients.shape[2])
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last knot in [s]."""
+        return self._knot_list[0], self._knot_list[-1]
+
+    def __call__(self, time_s: float, derivative: int = 0) -> Array:
+        """Return the value (or the 1st to 3rd time derivative) at ``time_s``, (d,)."""
+        knots = self._knot_list
+        if derivative and not knots[0] <= time_s <= knots[-1]:
+            return np.zeros(self.dimension)
+        inside = min(max(time_s, knots[0]), knots[-1])
+        piece = min(bisect_right(knots, inside) - 1, len(knots) - 2)
+        local = inside - knots[piece]
+        angle = self.rate * local
+        even, odd = math.cosh(angle), math.sinh(angle)
+        offset, slope, p, q = self.coefficients[piece]
+        scale = self.rate**derivative
+        value: Array = (scale * even) * p + (scale * odd) * q if derivative % 2 == 0 else scale * (odd * p + even * q)
+        if derivative == 0:
+            return value + offset + local * slope
+        return value + slope if derivative == 1 else value
+
+    def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
+        """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""
+        offset, slope, p, q = np.moveaxis(self.coefficients[pieces], 1, 0)
+        local = np.asarray(local_s)[:, None]
+        even, odd = np.cosh(self.rate * local), np.sinh(self.rate * local)
+        first, second = (even, odd) if derivative % 2 == 0 else (odd, even)
+        value: Array = self.rate**derivative * (first * p + second * q)
+        if derivative == 0:
+            return value + offset + local * slope
+        return value + slope if derivative == 1 else value

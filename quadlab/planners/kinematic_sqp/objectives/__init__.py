@@ -1,0 +1,1 @@
+"""Objectives of Gehring 2017, Table I, one a file."""

@@ -1,0 +1,1 @@
+"""Sparse quadratic programs: one interface, several solvers."""

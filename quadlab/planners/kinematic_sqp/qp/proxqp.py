@@ -1,0 +1,27 @@
+"""ProxQP (proxsuite, BSD-2): proximal augmented Lagrangian with a sparse factorisation."""
+
+import numpy as np
+import proxsuite
+from scipy.sparse import csc_matrix
+
+from quadlab.planners.kinematic_sqp.qp.problem import QpAnswer, QuadraticProgram
+
+_MAX_ITERATIONS = 1000
+_NEVER_INFEASIBLE = 1e-14  # its tests of infeasibility give up on feasible problems; the residuals decide
+
+
+class ProxQpSolver:
+    """Solver ``proxqp``."""
+
+    def solve(self, program: QuadraticProgram, tolerance: float) -> QpAnswer:
+        """Return the minimiser; ``tolerance`` is absolute."""
+        count, size = program.rows.shape
+        solver = proxsuite.proxqp.sparse.QP(size, 0, count)
+        solver.settings.eps_abs = tolerance
+        solver.settings.max_iter = _MAX_ITERATIONS
+        solver.settings.eps_primal_inf = solver.settings.eps_dual_inf = _NEVER_INFEASIBLE
+        solver.init(
+            csc_matrix(program.hessian), program.gradient, None, None, csc_matrix(program.rows), program.lower, program.upper
+        )
+        solver.solve()
+        return QpAnswer(np.array(solver.results.x), np.array(solver.results.z))

@@ -1,0 +1,1 @@
+"""One constraint of the reduced program per file."""

@@ -1,0 +1,1 @@
+"""One cost of the reduced program per file, each a sum of squares of affine rows."""

@@ -1,0 +1,23 @@
+"""Load spread evenly over the feet in contact."""
+
+import casadi as ca
+import numpy as np
+
+from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.paper.symbols import Symbols, vertex_contacts
+from quadlab.planners.vertex_zmp.paper.terms import Cost
+
+
+def robustness(symbols: Symbols, grid: PolynomialGrid, weight: float) -> Cost:
+    """Return the deviation from equal load, Winkler 2017, Eq. (20)-(21).
+
+    J = sum_i w_i ||lambda_i - lambda_i*||^2 with lambda* = 1 / (number of vertices in contact).
+
+    Deviation: node i counts with its share w_i of time in [s] (Simpson's rule), so that the cost does not depend on
+    the grid; the paper has equal nodes and w_i = 1.
+    """
+    contacts = vertex_contacts(grid, symbols.loads.shape[0] // grid.node_contacts.shape[1])
+    even = (contacts / contacts.sum(axis=1, keepdims=True))[contacts]
+    node_weights = np.broadcast_to(grid.node_weights_s[:, None], contacts.shape)[contacts]
+    loads = symbols.loads.nz[:]
+    return Cost("robustness", weight, ca.dot(ca.DM(node_weights), (loads - ca.DM(even)) ** 2))

@@ -1,0 +1,57 @@
+"""What the controller gets to know of the simulated robot: sensors, and the estimator behind them."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from quadlab.configuration import part_of
+from quadlab.controllers.telemetry import ControlTelemetry
+from quadlab.estimation.estimate import Estimate, Estimator
+from quadlab.robots.kinematics import Kinematics
+from quadlab.robots.model import RobotModel
+from quadlab.robots.state import JointCommand, RobotState
+from quadlab.simulation.sensors import Sensors
+from quadlab.simulation.simulator import Simulator
+from quadlab.trials.config import TrialConfig
+
+
+class Observer:
+    """Reads the sensors of a simulator and keeps the estimate; one is made for each trial."""
+
+    def __init__(self, config: TrialConfig, robot: RobotModel, simulator: Simulator) -> None:
+        period_s = 1.0 / config.controller.rate_hz
+        estimator_type: Any = part_of("estimator", config.estimator)
+        self._estimator: Estimator = estimator_type(config.estimator, robot, period_s, config.seed)
+        self._sensors = Sensors(self._estimator.sensors, period_s, config.seed)
+        self._simulator = simulator
+        self._latest: Estimate | None = None
+
+    def observe(self, true_state: RobotState) -> Estimate:
+        """Return the estimate at the simulator's present state; asking again at the same time changes nothing."""
+        if self._latest is not None and self._latest.state.time_s == true_state.time_s:
+            return self._latest
+        torques = JointCommand(self._simulator.applied_torques)
+        reading = self._sensors.read(true_state, self._simulator.imu(), torques)
+        step = self._estimator.start if self._latest is None else self._estimator.update
+        self._latest = step(reading, true_state)
+        return self._latest
+
+
+def as_it_happened(
+    telemetry: ControlTelemetry, estimate: Estimate, true_state: RobotState, true_kinematics: Kinematics
+) -> ControlTelemetry:
+    """Return ``telemetry`` with the true motion in place of the believed one; references stay as they were.
+
+    The terrain plane is moved by the drift of the estimated height, since it is known relative to the robot only.
+    """
+    drift = estimate.state.position_base_in_world - true_state.position_base_in_world
+    plane = telemetry.terrain_plane - np.array([drift[2], 0.0, 0.0])
+    return replace(
+        telemetry,
+        com_position=true_kinematics.com_position,
+        com_velocity=true_kinematics.com_velocity,
+        foot_positions=true_kinematics.foot_positions,
+        foot_contact_velocities=true_kinematics.contact_jacobians @ true_kinematics.generalized_velocity,
+        terrain_plane=plane,
+    )

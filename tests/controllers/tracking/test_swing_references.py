@@ -1,0 +1,79 @@
+"""References of the feet in the air: to the planned foothold, with the robot, against a push, down in search."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from controller_cases import moved_state, uniform_plan
+from tracking_cases import PERIOD, TROT, track, tracker_for
+
+from quadlab.controllers.telemetry import LegMode
+from quadlab.geometry.rotations import Array
+from quadlab.robots.model import RobotModel
+from quadlab.robots.state import RobotState
+
+
+def swing_end(robot: RobotModel, state: RobotState, velocity: tuple[float, float], alignment: str) -> Array:
+    """References at the end of the first swing, without foothold correction, (4, 3)."""
+    plan = uniform_plan(robot, TROT, velocity)
+    settings = {"alignment": {"torso": "none", "swing": alignment}, "swing": {"feedback": 0.0}}
+    tracker = tracker_for(robot, plan, state, **settings)
+    end_s = plan.schedule.swings[0][0].end_s - PERIOD
+    return track(tracker, state, 0.6, end_s).reference.foot_positions
+
+
+def test_swing_ends_at_the_planned_foothold_just_below_the_ground(robot: RobotModel) -> None:
+    feet = swing_end(robot, robot.nominal_state(), (0.1, 0.0), "none")
+    plan = uniform_plan(robot, TROT, (0.1, 0.0))
+    depth = 0.008 * float(robot.nominal_state().position_base_in_world[2])
+    for leg in (0, 3):
+        np.testing.assert_allclose(feet[leg], plan.footholds[leg][1] - [0.0, 0.0, depth], atol=1e-3)
+    assert np.isnan(feet[[1, 2]]).all()
+
+
+def test_foot_passes_its_apex_in_the_middle_of_the_swing(robot: RobotModel) -> None:
+    standing_height = float(robot.nominal_state().position_base_in_world[2])
+    swing = TROT.swings[0][0]
+    tracker = tracker_for(robot, uniform_plan(robot, TROT), robot.nominal_state(), swing={"apex": 0.2})
+    middle = track(tracker, robot.nominal_state(), 0.6, swing.start_s + 0.5 * swing.duration_s).reference
+    assert middle.foot_positions[0, 2] == pytest.approx(0.2 * standing_height, rel=1e-3)
+    assert abs(middle.foot_velocities[0, 2]) < 0.02
+
+
+def test_foothold_goes_with_the_displaced_base(robot: RobotModel) -> None:
+    """Base-centred: the foothold keeps its place relative to the planned CoM."""
+    shift = np.array([0.1, 0.05])
+    state = moved_state(robot.nominal_state(), shift, 0.0)
+    feet = swing_end(robot, state, (0.1, 0.0), "base")
+    plan = uniform_plan(robot, TROT, (0.1, 0.0))
+    com = robot.kinematics(state).com_position[:2]
+    planned_com = plan.at(plan.schedule.swings[0][0].end_s - PERIOD).com_position[:2]
+    for leg in (0, 3):
+        np.testing.assert_allclose(feet[leg, :2] - com, plan.footholds[leg][1, :2] - planned_com, atol=1e-3)
+
+
+@pytest.mark.parametrize("ground", [0.0, 0.5])
+def test_pushed_robot_steps_towards_the_push(robot: RobotModel, ground: float) -> None:
+    nominal = robot.nominal_state()
+    resting = replace(nominal, position_base_in_world=nominal.position_base_in_world + np.array([0.0, 0.0, ground]))
+    pushed = replace(resting, linear_velocity_base_in_world=np.array([0.0, 0.2, 0.0]))
+    ends = []
+    for state in (resting, pushed):
+        tracker = tracker_for(robot, uniform_plan(robot, TROT), resting)
+        ends.append(track(tracker, state, 0.6, TROT.swings[0][0].end_s - PERIOD).reference.foot_positions)
+    height = robot.kinematics(pushed).com_position[2] - ground
+    step = (ends[1] - ends[0])[[0, 3], :2]
+    np.testing.assert_allclose(step, np.tile([0.0, 0.2 * math.sqrt(height / 9.81)], (2, 1)), rtol=0.03, atol=1e-9)
+
+
+def test_late_foot_is_sent_straight_down_with_the_search_speed(robot: RobotModel) -> None:
+    tracker = tracker_for(robot, uniform_plan(robot, TROT), robot.nominal_state(), contact={"search_speed_mps": 0.4})
+    end_s = TROT.swings[0][0].end_s
+    track(tracker, robot.nominal_state(), 0.6, end_s - PERIOD)
+    late = track(tracker, robot.nominal_state(), end_s, end_s + 0.02, loaded=[1, 2, 3])
+    start = robot.kinematics(robot.nominal_state()).foot_positions[0]
+    assert late.modes == (LegMode.SEARCH, LegMode.STANCE, LegMode.STANCE, LegMode.STANCE)
+    reference = late.reference
+    np.testing.assert_allclose(reference.foot_positions[0], start - [0.0, 0.0, 0.4 * 0.02], atol=0.4 * 2 * PERIOD)
+    np.testing.assert_allclose(reference.foot_velocities[0], [0.0, 0.0, -0.4])
