@@ -1,4 +1,4 @@
-"""Every acceptance trial in full: gaits, robots and seeds; the table goes to results/acceptance/.
+"""Every acceptance trial in full: gaits, robots and seeds; table and report go to results/acceptance/.
 
     python experiments/acceptance.py [--jobs 2] [--seeds 10]
 
@@ -66,6 +66,23 @@ def run(overrides: list[str]) -> dict[str, object]:
     return outcome.result.model_dump(mode="json")
 
 
+def report(table: pd.DataFrame) -> str:
+    """Return the table of README.md: one row a robot and gait, the worst seed in every column."""
+    lines = [
+        "| robot | gait | completed | CoM error rms / max [mm] | height rms [mm] | roll, pitch rms [deg] | torque [N m] |",
+        "|---|---|--:|--:|--:|--:|--:|",
+    ]
+    for (robot, gait), rows in table.groupby(["robot", "gait"], sort=False):
+        completed = int((rows["status"] == TrialStatus.COMPLETED).sum())
+        worst = rows.max(numeric_only=True)
+        lines.append(
+            f"| {robot} | {gait} | {completed} of {len(rows)} "
+            f"| {worst['com_error_rms_mm']:.1f} / {worst['com_error_max_mm']:.1f} | {worst['base_height_rms_mm']:.1f} "
+            f"| {worst['roll_pitch_rms_deg']:.2f} | {worst['torque_max_nm']:.0f} |"
+        )
+    return "\n".join(lines) + "\n"
+
+
 def main() -> int:
     """Run all trials, write the table and return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -81,6 +98,7 @@ def main() -> int:
             sys.stdout.flush()
     table = pd.DataFrame(rows).reindex(columns=COLUMNS)
     table.to_csv(FOLDER / "table.csv", index=False, float_format="%.4g")
+    (FOLDER / "report.md").write_text(report(table), encoding="utf-8")
     completed = int((table["status"] == TrialStatus.COMPLETED).sum())
     sys.stdout.write(f"{completed} of {len(table)} trials completed; table in {FOLDER / 'table.csv'}\n")
     return 0 if completed == len(table) else 1

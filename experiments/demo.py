@@ -8,7 +8,9 @@ The same as three commands::
 """
 
 import argparse
+import shutil
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 from quadlab.errors import QuadlabError
@@ -48,11 +50,17 @@ def run_demo(tag: str) -> int:
         sys.stderr.write(f"quadlab: {outcome.failure}\n")
         return 1
     sys.stdout.write(job_report(outcome))
+    show(plot_trial(outcome.directory))
     rendered = render_trial_log(outcome.directory)
-    written: list[Path] = [*plot_trial(outcome.directory), rendered.video, rendered.strip]
-    for path in written:
-        sys.stdout.write(f"  {path}\n")
+    shutil.copyfile(rendered.strip, outcome.directory.parent / rendered.strip.name)  # the picture in README.md
+    show([rendered.video, rendered.strip])
     return 0
+
+
+def show(paths: Iterable[Path]) -> None:
+    """Print where files are."""
+    sys.stdout.writelines(f"  {path}\n" for path in paths)
+    sys.stdout.flush()
 
 
 if __name__ == "__main__":
