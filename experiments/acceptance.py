@@ -69,7 +69,7 @@ def run(overrides: list[str]) -> dict[str, object]:
 def report(table: pd.DataFrame) -> str:
     """Return the table of README.md: one row a robot and gait, the worst seed in every column."""
     lines = [
-        "| robot | gait | completed | CoM error rms / max [mm] | height rms [mm] | roll, pitch rms [deg] | torque [N m] |",
+        "| robot | gait | completed | CoM rms / max [mm] | height rms [mm] | roll, pitch rms [deg] | torque [N m] |",
         "|---|---|--:|--:|--:|--:|--:|",
     ]
     for (robot, gait), rows in table.groupby(["robot", "gait"], sort=False):

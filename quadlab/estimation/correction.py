@@ -134,7 +134,7 @@ def _relative_covariances(covariance: Array) -> Array:
     """Return the covariance of dp_i - dr of each foot, (4, 3, 3) in [m^2]."""
     base = covariance[POSITION, POSITION]
     cross = covariance[FEET, POSITION].reshape(LEG_COUNT, 3, 3)
-    own = np.stack([covariance[foot_block(leg), foot_block(leg)] for leg in range(LEG_COUNT)])
+    own = np.einsum("iaib->iab", covariance[FEET, FEET].reshape(LEG_COUNT, 3, LEG_COUNT, 3))
     relative: Array = own + base - cross - cross.transpose(0, 2, 1)
     return relative
 

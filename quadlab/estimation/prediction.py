@@ -15,17 +15,16 @@ from quadlab.estimation.error_state import (
     POSITION,
     VELOCITY,
     FilterState,
-    foot_block,
 )
 from quadlab.geometry.rotations import Array, skew
 from quadlab.planners.problem import GRAVITY
-from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.sensing import SensorReading
 
 _UP = np.array([0.0, 0.0, 1.0])
 _GRAVITY = -GRAVITY * _UP
 _CROSS_GRAVITY, _CROSS_UP = skew(_GRAVITY), skew(_UP)
 _EYE = np.eye(3)
+_CROSS_BASIS = np.stack([skew(axis).ravel() for axis in _EYE])
 
 
 class ProcessNoiseConfig(StrictModel):
@@ -116,7 +115,7 @@ def error_dynamics(predicted: FilterState, step: InertialStep, foot_radius: floa
         dr+     = dr + T dv + T^2/2 (g x dtheta - R_m db_f) - T r+ x B + T^3/4 f x B
         dp_i+   = dp_i + (T rho e_z x (Omega_i x .) + u_i x .) dtheta + T rho e_z x B - T p_i+ x B
 
-    where u_i = T Omega_i x rho e_z.
+    where u_i = T Omega_i x rho e_z; terms of T^2 rho are left out.
     """
     period_s, rotation = step.period_s, step.mean_rotation
     jacobian = np.eye(ERROR_SIZE)
@@ -128,8 +127,9 @@ def error_dynamics(predicted: FilterState, step: InertialStep, foot_radius: floa
     turn = -period_s * rotation
     jacobian[ORIENTATION, GYRO_BIAS] = turn
     lever = 0.5 * period_s * step.specific_force_in_world
-    jacobian[VELOCITY, GYRO_BIAS] = skew(predicted.velocity - lever) @ turn
-    jacobian[POSITION, GYRO_BIAS] = skew(predicted.position - 0.5 * period_s * lever) @ turn
+    levers = _cross_matrices(np.stack([predicted.velocity - lever, predicted.position - 0.5 * period_s * lever]))
+    jacobian[VELOCITY, GYRO_BIAS] = levers[0] @ turn
+    jacobian[POSITION, GYRO_BIAS] = levers[1] @ turn
     _fill_feet(jacobian, predicted, step, foot_radius, turn)
     return jacobian
 
@@ -166,9 +166,12 @@ def _rolling(step: InertialStep, foot_radius: float) -> Array:
 
 def _fill_feet(jacobian: Array, predicted: FilterState, step: InertialStep, foot_radius: float, turn: Array) -> None:
     rolled = step.period_s * foot_radius * _CROSS_UP
-    ways = _rolling(step, foot_radius)
-    for leg in range(LEG_COUNT):
-        foot = foot_block(leg)
-        spin = skew(step.foot_angular_velocities_in_world[leg])
-        jacobian[foot, ORIENTATION] = rolled @ spin + skew(ways[leg])
-        jacobian[foot, GYRO_BIAS] = (skew(predicted.feet[leg]) - foot_radius * _CROSS_UP) @ turn
+    ways = _cross_matrices(_rolling(step, foot_radius))
+    spins = _cross_matrices(step.foot_angular_velocities_in_world)
+    jacobian[FEET, ORIENTATION] = (rolled @ spins + ways).reshape(-1, 3)
+    jacobian[FEET, GYRO_BIAS] = ((_cross_matrices(predicted.feet) - foot_radius * _CROSS_UP) @ turn).reshape(-1, 3)
+
+
+def _cross_matrices(vectors: Array) -> Array:
+    """Return the matrices S_i with S_i b = v_i x b for ``vectors``, (n, 3), as (n, 3, 3)."""
+    return (vectors @ _CROSS_BASIS).reshape(-1, 3, 3)

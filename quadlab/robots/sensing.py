@@ -17,7 +17,7 @@ class SensorReading:
     The inertial unit integrates internally, as real ones do: its rates are means over the time since the last reading.
 
     Attributes:
-        time_s: time since the start of the trial in [s].
+        time_s: when the reading arrives, since the start of the trial, in [s].
         gyro: angular velocity of the base in base axes, (3,) in [rad/s].
         accelerometer: specific force (acceleration minus gravity) at the base origin in base axes, (3,) in [m/s^2];
             at rest on level ground it is (0, 0, +9.81).

@@ -138,8 +138,8 @@ class Sensors:
         self.accelerometer_bias = self.accelerometer_bias + force_step * self._random.standard_normal(3)
 
     def _late(self, reading: SensorReading, config: SensorConfig) -> SensorReading:
-        """Return the reading of ``latency_ticks`` periods ago; the first one until there are so many."""
+        """Return the reading of ``latency_ticks`` periods ago, with the time of its arrival; at first the first one."""
         self._delayed.append(reading)
         if len(self._delayed) > config.latency_ticks + 1:
             self._delayed.popleft()
-        return self._delayed[0]
+        return replace(self._delayed[0], time_s=reading.time_s)

@@ -30,13 +30,14 @@ class HeightOverFootprintLimit:
         self.config = config
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
-        """Return one row in accelerations."""
-        footprint = kinematics.foot_positions[reference.stance_legs, 2].mean()
+        """Return one row in accelerations; none if no foot stands."""
+        footprint = kinematics.foot_positions[reference.stance, 2]
+        row = slice(2, 3 if len(footprint) else 2)
         return position_limit(
-            kinematics.base_jacobian[2:3],
-            kinematics.base_bias[2:3],
-            kinematics.base_position[2:3] - footprint,
-            kinematics.base_linear_velocity[2:3],
+            kinematics.base_jacobian[row],
+            kinematics.base_bias[row],
+            kinematics.base_position[row] - footprint.sum() / max(len(footprint), 1),
+            kinematics.base_linear_velocity[row],
             (
                 self.config.minimum * reference.standing_height,
                 self.config.maximum * reference.standing_height,

@@ -16,7 +16,8 @@ class ObjectiveWeights(StrictModel):
         dynamic_stability: Eq. (7) and (8), in [1/m^2].
         travel_distance_transition, travel_distance_periodic: Eq. (9) of single and of repeated cycles, in [1/m^2].
         turning_angle_periodic: Eq. (9) of repeated cycles, in [1/rad^2].
-        smooth_base, smooth_joints, smooth_com, smooth_feet: Eq. (5) in units of the sample period, in [1/m^2], [1/rad^2].
+        smooth_base, smooth_joints, smooth_com, smooth_feet: Eq. (5) in units of the sample period, in [1/m^2],
+            [1/rad^2].
         turning_angle_transition: Eq. (9) of single cycles, in [1/rad^2].
         regulariser: base height, roll, pitch and joints as in the nominal stance, in [1/m^2], [1/rad^2].
         even_loads: w_k equal among the feet that carry.

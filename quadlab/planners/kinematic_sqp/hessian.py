@@ -1,4 +1,4 @@
-"""Gauss-Newton Hessians of fixed pattern: from small dense blocks straight to the sparse matrix of the free variables."""
+"""Gauss-Newton Hessians of fixed pattern: from small dense blocks straight to the sparse matrix by free variables."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -49,7 +49,7 @@ def hessian_assembly(transform: csr_array, variables: Sequence[IndexArray], cons
     keys = np.concatenate([column * size + row, fixed.col.astype(np.intp) * size + fixed.row])
     pattern, place = np.unique(keys, return_inverse=True)
     scatter = csr_array((factor, (place[: len(entry)], entry)), shape=(len(pattern), len(first)))
-    values = np.bincount(place[len(entry) :], weights=fixed.data, minlength=len(pattern))
+    values: Array = np.bincount(place[len(entry) :], weights=fixed.data, minlength=len(pattern)).astype(float)
     starts = np.searchsorted(pattern, np.arange(size + 1) * size)
     return HessianAssembly(scatter, values, (pattern % size).astype(np.int32), starts.astype(np.int32), size)
 

@@ -15,7 +15,6 @@ from quadlab.planners.kinematic_sqp.kinematics import SampleKinematics
 from quadlab.planners.kinematic_sqp.layout import SampleLayout
 from quadlab.planners.kinematic_sqp.term import BlockTerm, Coordinates, Equality, Inequality, Jacobians, LinearTerm
 
-
 _CONSISTENCY = ("com_consistency", "feet_consistency")
 
 
@@ -94,7 +93,8 @@ class KinematicProgram:
 
     def violations(self, p: Array) -> dict[str, float]:
         """Return the largest violation of each constraint set, by names that carry the unit."""
-        return {constraint.name: constraint.violation(p) for constraint in [*self.equalities, *self.inequalities]}
+        values = {equality.name: equality.violation(p) for equality in self.equalities}
+        return values | {inequality.name: inequality.violation(p) for inequality in self.inequalities}
 
     def consistency(self, p: Array) -> dict[str, float]:
         """Return the largest distance of auxiliary and true points, Eq. (3), of CoM and feet in [mm]."""
@@ -112,10 +112,11 @@ class KinematicProgram:
         jacobians = Jacobians(*self.kinematics.jacobians(self.layout.poses(p)))
         gradient, blocks = np.zeros(self.layout.size), []
         for term in self.block_terms:
-            weighted = 2.0 * term.weight * term.jacobian(p, jacobians).transpose(0, 2, 1)
+            jacobian = term.jacobian(p, jacobians)
+            weighted = 2.0 * term.weight * jacobian.transpose(0, 2, 1)
             slopes = (weighted @ term.residual(p, coordinates)[:, :, None])[:, :, 0]
             gradient += np.bincount(term.variables.ravel(), weights=slopes.ravel(), minlength=self.layout.size)
-            blocks.append(weighted @ term.jacobian(p, jacobians))
+            blocks.append(weighted @ jacobian)
         rows, target = self._linear_rows
         linear = 2.0 * (rows.T @ (rows @ y - target))
         return Linearisation(self._assembly.assemble(blocks), self._transposed @ gradient + linear)

@@ -7,7 +7,7 @@ import numpy as np
 
 from quadlab.geometry.rotations import Array
 from quadlab.planners.kinematic_sqp.config import SqpConfig
-from quadlab.planners.kinematic_sqp.program import KinematicProgram
+from quadlab.planners.kinematic_sqp.program import KinematicProgram, Linearisation
 from quadlab.planners.kinematic_sqp.qp.solvers import QP_SOLVERS
 from quadlab.planners.kinematic_sqp.step_problem import find_step, inequality_rows
 
@@ -62,34 +62,42 @@ def minimise(program: KinematicProgram, config: SqpConfig) -> Minimum:
     begin = time.perf_counter()
     solver = QP_SOLVERS[config.qp_solver]()
     rows = inequality_rows(program.inequalities, program.elimination)
-    iterates, steps = [_iterate(program, program.elimination.restrict(program.guess))], []
-    converged, failed, reason = False, False, f"no convergence in {config.max_iterations} iterations"
-    while len(steps) < config.max_iterations and not converged:
-        current = iterates[-1]
-        model = program.linearise(current.y)
-        step = find_step(model, rows, current.y, solver, config.qp_tolerance)
+    iterates = [_iterate(program, program.elimination.restrict(program.guess))]
+    steps: list[float] = []
+    reason, change = "", np.inf
+    while not reason:
+        model = program.linearise(iterates[-1].y)
+        step = find_step(model, rows, iterates[-1].y, solver, config.qp_tolerance)
         if not step.residual <= config.qp_residual:
-            failed = True
             reason = f"quadratic program {len(steps) + 1}: residual {step.residual:.2g} > {config.qp_residual:g}"
             break
-        slope = float(model.gradient @ step.step)
-        share, following = _line_search(program, current, step.step, slope, config)
+        share, following = _line_search(program, iterates[-1], step.step, model, config)
+        change = _change(iterates[-1], following, step.step, model)
         iterates.append(following)
         steps.append(share)
-        predicted = -slope - 0.5 * float(step.step @ (model.hessian @ step.step))
-        change = max(predicted, abs(current.objective - following.objective))
-        converged = change <= config.convergence * max(1.0, following.objective)
-    if converged:
-        reason = f"converged in {len(steps)} iterations"
+        reason = _end(len(steps), change, config)
     return Minimum(
         p=program.elimination.expand(iterates[-1].y),
         history=tuple(iterate.costs for iterate in iterates),
         steps=tuple(steps),
-        converged=converged,
+        converged=change <= config.convergence,
         reason=reason,
-        qp_failed=failed,
+        qp_failed=len(steps) < config.max_iterations and not change <= config.convergence,
         solve_ms=1e3 * (time.perf_counter() - begin),
     )
+
+
+def _end(iterations: int, change: float, config: SqpConfig) -> str:
+    """Return why the iteration ends here, or nothing if it goes on."""
+    if change <= config.convergence:
+        return f"converged in {iterations} iterations"
+    return f"no convergence in {iterations} iterations" if iterations == config.max_iterations else ""
+
+
+def _change(current: Iterate, following: Iterate, step: Array, model: Linearisation) -> float:
+    """Return the larger of predicted and real change of the objective, relative to the objective (at least 1)."""
+    predicted = -float(model.gradient @ step) - 0.5 * float(step @ (model.hessian @ step))
+    return max(abs(predicted), abs(current.objective - following.objective)) / max(1.0, following.objective)
 
 
 def _iterate(program: KinematicProgram, y: Array) -> Iterate:
@@ -97,13 +105,13 @@ def _iterate(program: KinematicProgram, y: Array) -> Iterate:
 
 
 def _line_search(
-    program: KinematicProgram, current: Iterate, step: Array, slope: float, config: SqpConfig
+    program: KinematicProgram, current: Iterate, step: Array, model: Linearisation, config: SqpConfig
 ) -> tuple[float, Iterate]:
-    """Return the first of the shares 1, 1/2, ... that decreases the objective enough, or the smallest, and where it leads.
+    """Return the first of the shares 1, 1/2, ... that decreases the objective enough, and where it leads.
 
     A step that leads from outside into the constraints may have to increase the objective; it is taken whole.
     """
-    share = 1.0
+    slope, share = float(model.gradient @ step), 1.0
     while True:
         following = _iterate(program, current.y + share * step)
         enough = current.objective + config.armijo * share * slope

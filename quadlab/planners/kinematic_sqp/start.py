@@ -22,7 +22,7 @@ class StartSample:
     Attributes:
         positions: blocks base_position, base_rotation, joints and com of the first sample.
         velocities: of base_position, base_rotation and com, (3,) each per second.
-        feet: over the ground, (4, 2) in [m].
+        feet: contact points, (4, 3) in [m].
     """
 
     positions: dict[str, Array]
@@ -72,7 +72,7 @@ def start_sample(problem: PlanningProblem, kinematics: SampleKinematics) -> Star
             "base_rotation": _euler_rates(rotation, state.angular_velocity_base_in_base),
             "com": robot.kinematics(state).com_velocity,
         },
-        feet=feet[:, :2],
+        feet=feet - ground,
     )
 
 

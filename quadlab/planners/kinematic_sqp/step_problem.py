@@ -58,9 +58,7 @@ def inequality_rows(inequalities: Sequence[Inequality], elimination: Elimination
     return InequalityRows(csr_array(reduced[free]), lower[free], upper[free], often[free])
 
 
-def find_step(
-    model: Linearisation, rows: InequalityRows, y: Array, solver: QpSolver, tolerance: float
-) -> Step:
+def find_step(model: Linearisation, rows: InequalityRows, y: Array, solver: QpSolver, tolerance: float) -> Step:
     """Return the minimiser of the model within all inequalities.
 
     The quadratic program begins with the rows that are often active; rows that its answer violates join until there

@@ -48,7 +48,7 @@ def transcribe(problem: PlanningProblem, config: KinematicSqpConfig) -> Kinemati
         grid=grid,
         kinematics=kinematics,
         linear_terms=_linear_terms(layout, grid, robot, config),
-        block_terms=_block_terms(layout, grid, problem.model.gravity, config),
+        block_terms=_block_terms(layout, grid, start, problem.model.gravity, config),
         equalities=equalities,
         inequalities=_inequalities(layout, grid, robot, config),
         elimination=eliminate(equalities, layout.size),
@@ -60,7 +60,7 @@ def transcribe(problem: PlanningProblem, config: KinematicSqpConfig) -> Kinemati
 def standing_guess(layout: SampleLayout, grid: SampleGrid, start: StartSample, limits: Array) -> Array:
     """Return the start pose, within the joint limits, at every sample with equal loads."""
     p = np.zeros(layout.size)
-    for block, value in {**start.positions, "feet": start.feet.ravel()}.items():
+    for block, value in {**start.positions, "feet": start.feet[:, :2].ravel()}.items():
         p[layout.indices(block)] = value
     joints = layout.indices("joints")
     p[joints] = np.clip(p[joints], limits[:, 0], limits[:, 1])
@@ -69,12 +69,14 @@ def standing_guess(layout: SampleLayout, grid: SampleGrid, start: StartSample, l
 
 
 def _block_terms(
-    layout: SampleLayout, grid: SampleGrid, gravity: float, config: KinematicSqpConfig
+    layout: SampleLayout, grid: SampleGrid, start: StartSample, gravity: float, config: KinematicSqpConfig
 ) -> list[BlockTerm]:
     weights = config.weights
+    heights = grid.foot_heights(config.clearance_m)
+    heights[0] = start.feet[:, 2]  # measured; the plan's ground is level from the next sample on
     return [
         com_consistency(layout, weights.com_consistency),
-        feet_consistency(layout, grid.foot_heights(config.clearance_m), weights.feet_consistency),
+        feet_consistency(layout, heights, weights.feet_consistency),
         dynamic_stability(layout, grid, gravity, weights.dynamic_stability),
     ]
 

@@ -67,9 +67,14 @@ TABLE_ONE = (
 )
 
 
+def table_one_phases(gait: str) -> tuple[tuple[float, str], ...]:
+    """Return the phases of one stride of a gait of Table I: (duration in [s], legs in the air)."""
+    return _PHASES[gait]
+
+
 def table_one_schedule(gait: str, steps: int) -> ContactSchedule:
     """Return ``steps`` / 4 strides of one of the gaits of Table I."""
-    return schedule_of(_PHASES[gait] * (steps // 4))
+    return schedule_of(table_one_phases(gait) * (steps // 4))
 
 
 def schedule_of(phases: tuple[tuple[float, str], ...]) -> ContactSchedule:

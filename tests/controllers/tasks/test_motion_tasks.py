@@ -12,6 +12,7 @@ from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.task_levels import build_task
 from quadlab.controllers.tasks.base_height import BaseHeightTask
 from quadlab.controllers.tasks.base_orientation import BaseRollPitchTask, BaseYawTask
+from quadlab.controllers.tasks.base_position import BasePositionTask
 from quadlab.controllers.tasks.com_position import ComPositionTask
 from quadlab.controllers.tasks.contact_force_minimisation import ContactForceMinimisationTask
 from quadlab.controllers.tasks.swing_feet import SwingFeetTask
@@ -24,6 +25,7 @@ STEP = 1e-4  # [s]
 STIFFNESS, DAMPING = 70.0, 9.0
 CONFIGS: dict[str, type] = {
     "com_position": ComPositionTask.Config,
+    "base_position": BasePositionTask.Config,
     "base_height": BaseHeightTask.Config,
     "base_yaw": BaseYawTask.Config,
     "base_roll_pitch": BaseRollPitchTask.Config,
@@ -52,6 +54,8 @@ def angular_acceleration(along: list[Kinematics]) -> Array:
 def task_acceleration(name: str, along: list[Kinematics], swing: list[int]) -> Array:
     if name == "com_position":
         return second_difference(lambda kinematics: kinematics.com_position[:2], along)
+    if name == "base_position":
+        return second_difference(lambda kinematics: kinematics.base_position[:2], along)
     if name == "base_height":
         return second_difference(lambda kinematics: kinematics.base_position[2:3], along)
     if name == "swing_feet":
@@ -81,9 +85,11 @@ def displaced(robot: RobotModel, kinematics: Kinematics) -> tuple[ControlReferen
     offset, rate, feed_forward = generator.normal(size=(3, 4, 3))
     turn, heading = 0.2 * offset[0], rotation_z(-yaw_of(kinematics.base_rotation))
     exact = reference_at(robot, kinematics, [0, 2])
+    base_rate = exact.com_velocity + rate[1, :2] - kinematics.base_linear_velocity[:2]
     reference = replace(
         exact,
         com_position=exact.com_position + offset[1, :2],
+        base_position=exact.base_position + offset[3, :2],
         com_velocity=exact.com_velocity + rate[1, :2],
         com_acceleration=feed_forward[1, :2],
         base_height=exact.base_height + offset[2, 0],
@@ -97,6 +103,7 @@ def displaced(robot: RobotModel, kinematics: Kinematics) -> tuple[ControlReferen
     vertical_speed = kinematics.base_linear_velocity[2:3]
     return reference, {
         "com_position": STIFFNESS * offset[1, :2] + DAMPING * rate[1, :2] + feed_forward[1, :2],
+        "base_position": STIFFNESS * offset[3, :2] + DAMPING * base_rate + feed_forward[1, :2],
         "base_height": STIFFNESS * offset[2, :1] - DAMPING * vertical_speed,
         "base_yaw": rotational[2:],
         "base_roll_pitch": rotational[:2],

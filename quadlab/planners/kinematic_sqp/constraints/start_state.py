@@ -12,7 +12,7 @@ _MOVING = ("base_position", "base_rotation", "com")  # blocks whose second sampl
 
 def start_pose(layout: SampleLayout, start: StartSample) -> Equality:
     """Return the first sample: configuration, CoM and feet as measured."""
-    values: dict[str, Array] = {**start.positions, "feet": start.feet.ravel()}
+    values: dict[str, Array] = {**start.positions, "feet": start.feet[:, :2].ravel()}
     targets = np.concatenate([layout.indices(block)[0] for block in values])
     return fix("start_pose_m", targets, np.concatenate(list(values.values())))
 

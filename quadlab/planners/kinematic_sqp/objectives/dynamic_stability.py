@@ -39,7 +39,8 @@ class DynamicStability:
         com, acceleration, loads, feet = self._parts(p)
         lever = com[:, 2] / (acceleration[:, 2] + self.gravity)
         cop = com[:, :2] - lever[:, None] * acceleration[:, :2]
-        return np.einsum("sk,skd->sd", loads, feet) - cop
+        distance: Array = np.einsum("sk,skd->sd", loads, feet) - cop
+        return distance
 
     def jacobian(self, p: Array, jacobians: Jacobians) -> Array:
         """Return the derivative, (groups, 2, 24)."""

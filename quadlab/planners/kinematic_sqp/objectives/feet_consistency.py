@@ -32,7 +32,8 @@ class FeetConsistency:
     def residual(self, p: Array, coordinates: Coordinates) -> Array:
         """Return r_EE,k(q_i) - e_{k,i}, (4 N, 3) in [m]."""
         planned = np.concatenate([self.layout.feet(p), self.heights[:, :, None]], axis=2)
-        return (coordinates.feet - planned).reshape(-1, 3)
+        difference: Array = coordinates.feet - planned
+        return difference.reshape(-1, 3)
 
     def jacobian(self, p: Array, jacobians: Jacobians) -> Array:
         """Return [J_EE,k, -I], (4 N, 3, 11)."""

@@ -20,8 +20,7 @@ class ProxQpSolver:
         solver.settings.eps_abs = tolerance
         solver.settings.max_iter = _MAX_ITERATIONS
         solver.settings.eps_primal_inf = solver.settings.eps_dual_inf = _NEVER_INFEASIBLE
-        solver.init(
-            csc_matrix(program.hessian), program.gradient, None, None, csc_matrix(program.rows), program.lower, program.upper
-        )
+        hessian, rows = csc_matrix(program.hessian), csc_matrix(program.rows)
+        solver.init(hessian, program.gradient, None, None, rows, program.lower, program.upper)
         solver.solve()
         return QpAnswer(np.array(solver.results.x), np.array(solver.results.z))

@@ -168,6 +168,5 @@ def _sets(names: Sequence[str], counts: Sequence[int]) -> dict[str, slice]:
 
 
 def _worst(violations: Array) -> float:
-    if not np.isfinite(violations[violations > -np.inf]).all():
-        return float("nan")
-    return max(0.0, float(violations.max(initial=0.0)))
+    """Return the largest violation, at least 0; NaN if there is one."""
+    return float(np.maximum(violations, 0.0).max(initial=0.0))

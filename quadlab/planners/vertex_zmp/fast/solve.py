@@ -17,7 +17,7 @@ from quadlab.planners.vertex_zmp.solution import Solution
 
 _ATTEMPT_LIMIT = 60  # iterations of one attempt
 _ELASTIC = 1e-4  # compliance of the constraints when their least violation is looked for
-_DUAL_SHARE = 100.0  # gradient tolerance over constraint tolerance
+_DUAL_SHARE = 1000.0  # gradient tolerance over constraint tolerance
 
 
 @dataclass(frozen=True)
@@ -74,8 +74,9 @@ def _attempts(program: BilinearProgram, config: VertexZmpConfig) -> Iterator[tup
         max_iterations=_ATTEMPT_LIMIT,
         tolerance=config.solver_tolerance,
         dual_tolerance=_DUAL_SHARE * config.solver_tolerance,
-        barrier=1e-2,
-        proximal=1e-2 if indifferent else 1e-4,
+        barrier=0.1 if indifferent else 1e-3,
+        proximal=1e-6 if indifferent else 1e-4,
+        polish=1.0,
         centred=indifferent,
         curvature=True,
         elastic=0.0,

@@ -76,4 +76,5 @@ def _residuals(transcription: Transcription, x: Array, g: Array) -> dict[str, fl
 
 
 def _worst(violations: Array) -> float:
-    return max(0.0, float(violations.max())) if np.isfinite(violations[violations > -np.inf]).all() else float("nan")
+    """Return the largest violation, at least 0; NaN if there is one."""
+    return float(np.maximum(violations, 0.0).max(initial=0.0))

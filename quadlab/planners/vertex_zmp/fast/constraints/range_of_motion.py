@@ -13,27 +13,36 @@ def range_of_motion(model: ReducedModel, margin_m: float) -> Inequalities:
 
     -r < R(psi)^T (p^f[t] - c[t]) - p^f_nom < r, for standing and swinging feet alike.
 
-    Deviations: the box turns with the heading psi(t), which is given; it holds in the middle of the intervals as well
-    and is smaller by ``margin_m``, so that feet stay in the whole box between the samples. At time 0 there is nothing
-    to decide and no constraint.
+    Deviations: the box turns with the heading psi(t), which is given; it holds in the middle of the intervals as well,
+    for a foot in the air at their quarters too, and is smaller by ``margin_m``, so that feet stay in the whole box
+    between the samples. At time 0 there is nothing to decide and no constraint.
     """
-    intervals = np.repeat(np.arange(model.grid.count), 2)
-    fractions = np.tile([0.5, 1.0], model.grid.count)
-    times = model.grid.starts_s[intervals] + fractions * model.grid.durations_s[intervals]
-    com = model.knot_columns(intervals), -model.spline.weights(intervals, fractions)
-    yaw = model.yaw(times)
     nominal, reach = model.problem.model.nominal_feet, model.problem.model.reach - margin_m
-    columns, values = [], []
+    columns, values, middles, widths = [], [], [], []
     for foot in range(model.footholds.foot_count):
+        intervals, fractions = _samples(model, foot)
+        times = model.grid.starts_s[intervals] + fractions * model.grid.durations_s[intervals]
+        com = model.knot_columns(intervals), -model.spline.weights(intervals, fractions)
         offset = _offset_from_com(model, foot, times, com)
+        yaw = model.yaw(times)
         for axis in range(2):
             turned = _component(*offset, yaw, axis)
             columns.append(turned[0])
             values.append(turned[1])
-    middles = np.repeat(nominal.ravel(), len(times))
-    widths = np.repeat(np.tile(reach, len(nominal)), len(times))
-    rows = Rows("range_of_motion_m", np.concatenate(columns), np.concatenate(values), np.zeros(len(middles)))
-    return Inequalities(rows, middles - widths, middles + widths)
+            middles.append(np.full(len(times), nominal[foot, axis]))
+            widths.append(np.full(len(times), reach[axis]))
+    middle, width = np.concatenate(middles), np.concatenate(widths)
+    rows = Rows("range_of_motion_m", np.concatenate(columns), np.concatenate(values), np.zeros(len(middle)))
+    return Inequalities(rows, middle - width, middle + width)
+
+
+def _samples(model: ReducedModel, foot: int) -> tuple[IntArray, Array]:
+    """Return (interval, elapsed fraction) of all samples of a foot, both (s,)."""
+    every = np.arange(model.grid.count)
+    contacts = model.problem.schedule.contacts[model.grid.node_phases[model.grid.nodes[:, 0]], foot]
+    swinging = np.flatnonzero(~contacts)
+    intervals = np.concatenate([every, every, swinging, swinging])
+    return intervals, np.repeat([0.5, 1.0, 0.25, 0.75], [len(every), len(every), len(swinging), len(swinging)])
 
 
 def _offset_from_com(

@@ -36,7 +36,13 @@ class Workspace(NamedTuple):
 
 @compiled
 def factorise_kkt(
-    program: ProgramArrays, plan: KktPlan, at: Iterate, found: Residuals, settings: Settings, work: Workspace
+    program: ProgramArrays,
+    plan: KktPlan,
+    at: Iterate,
+    found: Residuals,
+    proximal: float,
+    settings: Settings,
+    work: Workspace,
 ) -> int:
     """Factorise the matrix of the Newton step; return how often that took.
 
@@ -44,13 +50,13 @@ def factorise_kkt(
     """
     count = len(at.y)
     if settings.curvature:
-        _assemble(program, plan, at, found, settings, work.k_values, work.pair_products)
+        _assemble(program, plan, at, found, proximal, settings.elastic, work.k_values, work.pair_products)
         for p in range(len(program.p_rows)):
             work.k_values[plan.from_products[p]] += program.p_coefficients[p] * at.y[program.p_rows[p]]
         negative = factorise(plan.elimination, work.k_values, work.l_values, work.inverse_pivots, work.row, work.filled)
         if negative == count:
             return 1
-    _assemble(program, plan, at, found, settings, work.k_values, work.pair_products)
+    _assemble(program, plan, at, found, proximal, settings.elastic, work.k_values, work.pair_products)
     factorise(plan.elimination, work.k_values, work.l_values, work.inverse_pivots, work.row, work.filled)
     return 2 if settings.curvature else 1
 
@@ -61,17 +67,17 @@ def _assemble(
     plan: KktPlan,
     at: Iterate,
     found: Residuals,
-    settings: Settings,
+    proximal: float,
+    elastic: float,
     k_values: Array,
     pair_products: Array,
 ) -> None:
     """Write [H + proximal + G' D G, J'; J, -regularisation] to ``k_values``."""
-    elastic = settings.elastic
     size = len(at.z)
     for entry in range(len(k_values)):
         k_values[entry] = 0.0
     for index in range(len(plan.diagonal)):
-        k_values[plan.diagonal[index]] = settings.proximal if index < size else -(elastic + _REGULARISATION)
+        k_values[plan.diagonal[index]] = proximal if index < size else -(elastic + _REGULARISATION)
     for entry in range(len(plan.from_h)):
         if plan.from_h[entry] >= 0:
             k_values[plan.from_h[entry]] += program.h_values[entry]

@@ -20,6 +20,7 @@ _FINGERPRINT = source_fingerprint()
 _BACK_OFF = 0.995  # share of the way to the boundary
 _SMALLEST_STEP = 0.05  # shorter steps are taken whatever they do to the equalities
 _TARGET_SHARE = 1e-3  # complementarity stays above this share of the violation
+_NEARLY_FEASIBLE = 1e-4  # violation of the equalities below which they converge in one or two more steps
 CONVERGED, STEP_LIMIT, NOT_FINITE = 0, 1, 2
 
 
@@ -28,7 +29,8 @@ class Answer(NamedTuple):
 
     Attributes:
         z: last iterate.
-        end: CONVERGED, STEP_LIMIT or NOT_FINITE.
+        end: _NEARLY_FEASIBLE = 1e-4  # violation of the equalities below which they converge in one or two more steps
+CONVERGED, STEP_LIMIT or NOT_FINITE.
         iterations, factorisations: how many there were.
         equality, dual, complementarity: largest residuals.
     """
@@ -59,6 +61,7 @@ def minimise(program: ProgramArrays, plan: KktPlan, pair_products: Array, first:
     _first_slacks(program, settings, at, found)
     end, factorisations, iteration = STEP_LIMIT, 0, 0
     violation = dual = gap = np.inf
+    settled = False  # from then on unknowns are held in place: where costs leave them free, steps wander about
     for iteration in range(settings.max_iterations + 1):
         evaluate(program, at, first, settings, found)
         gap = _complementarity(program, at)
@@ -67,12 +70,14 @@ def minimise(program: ProgramArrays, plan: KktPlan, pair_products: Array, first:
         if not np.isfinite(violation + dual + gap):
             end = NOT_FINITE
             break
-        if _finished(program, settings, found, violation, slack, dual, gap):
+        settled = settled or _settled(settings, violation, dual, gap)
+        if _finished(program, settings, found, violation, slack, settled or dual <= settings.dual_tolerance, gap):
             end = CONVERGED
             break
         if iteration == settings.max_iterations:
             break
-        factorisations += factorise_kkt(program, plan, at, found, settings, work)
+        proximal = settings.polish if settled else settings.proximal
+        factorisations += factorise_kkt(program, plan, at, found, proximal, settings, work)
         floor = min(max(_TARGET_SHARE * max(violation, slack), 0.1 * settings.tolerance), gap)
         newton_step(program, plan, at, found, settings, 0.0, False, work, step)
         primal, dual_length = _lengths(program, at, step)
@@ -125,11 +130,20 @@ def _first_slacks(program: ProgramArrays, settings: Settings, at: Iterate, found
 
 
 @compiled
+def _settled(settings: Settings, violation: float, dual: float, gap: float) -> bool:
+    """Return whether only the equalities are left to converge."""
+    small = gap <= settings.tolerance and dual <= settings.dual_tolerance and violation <= _NEARLY_FEASIBLE
+    return small and not settings.centred
+
+
+@compiled
 def _largest(values: Array) -> float:
+    """Return the largest magnitude; NaN if there is one."""
     largest = 0.0
     for value in values:
-        if not abs(value) <= largest:  # lets NaN through
-            largest = abs(value)
+        if np.isnan(value):
+            return np.nan
+        largest = max(largest, abs(value))
     return largest
 
 
@@ -160,7 +174,7 @@ def _finished(
     found: Residuals,
     violation: float,
     slack: float,
-    dual: float,
+    stationary: bool,
     gap: float,
 ) -> bool:
     """Return whether the iterate is optimal, or feasible if that is all that is asked for."""
@@ -173,7 +187,7 @@ def _finished(
             if program.has_upper[row] and found.values[row] > program.upper[row]:
                 return False
         return True
-    return slack <= settings.tolerance and dual <= settings.dual_tolerance and gap <= settings.tolerance
+    return slack <= settings.tolerance and stationary and gap <= settings.tolerance
 
 
 @compiled

@@ -51,6 +51,7 @@ class Settings(NamedTuple):
         dual_tolerance: largest component of the gradient of the Lagrangian.
         barrier: first complementarity.
         proximal: curvature that is added to every unknown.
+        polish: the same once the cost has settled.
         centred: whether the proximal term pulls to the first iterate; otherwise it only shortens steps.
         curvature: whether the curvature of the products is used where it keeps the step a descent direction.
         elastic: 0, or the compliance of all constraints: they become the cost sum(violation^2) / (2 elastic).
@@ -63,6 +64,7 @@ class Settings(NamedTuple):
     dual_tolerance: float
     barrier: float
     proximal: float
+    polish: float
     centred: bool
     curvature: bool
     elastic: float
