@@ -24,7 +24,8 @@ from quadlab.simulation.simulator import Simulator
 from quadlab.trials.compose import compose_trial
 from quadlab.trials.planning import planning_problem
 from quadlab.trials.progress import SilentProgress
-from quadlab.trials.runner import LOG_FILE, run_trial
+from quadlab.trials.recording.topics import LOG_FILE
+from quadlab.trials.runner import run_trial
 
 ROBOTS = ("anymal_b", "hyq")
 GAITS = ("walk", "trot")

@@ -6,8 +6,7 @@ from pydantic import ValidationError
 from quadlab.analysis.trial_log import TrialLog
 from quadlab.errors import LogError
 from quadlab.trials.config import TrialConfig
-
-CONFIG_ATTACHMENT = "config.yaml"
+from quadlab.trials.recording.topics import CONFIG_ATTACHMENT
 
 
 def logged_config(log: TrialLog) -> TrialConfig:

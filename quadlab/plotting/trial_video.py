@@ -5,12 +5,12 @@ from pathlib import Path
 
 from quadlab.analysis.log_reader import read_log
 from quadlab.analysis.trial_config import logged_config
+from quadlab.analysis.trial_directory import find_log
 from quadlab.analysis.trial_log import TrialLog, leg_vectors, vectors
 from quadlab.robots.model import load_robot
 from quadlab.simulation.rendering.config import RenderConfig
 from quadlab.simulation.rendering.motion import Motion
 from quadlab.simulation.rendering.trial_render import RenderedTrial, render_trial
-from quadlab.trials.runner import LOG_FILE
 
 
 def render_trial_log(
@@ -27,7 +27,7 @@ def render_trial_log(
         LogError: if there is no log, or not a whole one.
         MissingDependencyError: if OpenGL or ffmpeg is missing; says what to install.
     """
-    log = read_log(directory / LOG_FILE)
+    log = read_log(find_log(directory))
     config = logged_config(log)
     robot = load_robot(config.robot)
     return render_trial(robot, config.scenario, recorded_motion(log), directory, options or RenderConfig(), on_frame)

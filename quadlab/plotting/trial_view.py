@@ -11,6 +11,7 @@ import yaml
 from pydantic import TypeAdapter, ValidationError
 
 from quadlab.analysis.log_reader import read_log
+from quadlab.analysis.trial_directory import find_log
 from quadlab.analysis.trial_log import TrialLog
 from quadlab.errors import LogError
 from quadlab.geometry.rotations import Array
@@ -21,11 +22,8 @@ from quadlab.robots.config import RobotConfig
 from quadlab.robots.legs import LEGS
 from quadlab.simulation.ground import Ground
 from quadlab.simulation.terrain import TerrainConfig, build_ground
-from quadlab.trials.recording.recorder import part_path
+from quadlab.trials.recording.topics import CONFIG_ATTACHMENT, LOG_FILE, URDF_ATTACHMENT
 from quadlab.trials.result import RESULT_FILE, TrialResult, read_result
-
-LOG_FILE = "trial.mcap"
-_CONFIG, _URDF = "config.yaml", "robot.urdf"
 
 
 @dataclass(frozen=True)
@@ -79,43 +77,29 @@ def load_trial_view(directory: Path) -> TrialView:
     Raises:
         LogError: if there is no log, or it is damaged, empty or without the attachments that a trial writes.
     """
-    log = read_log(_log_path(directory))
+    log = read_log(find_log(directory))
     if log.control.empty:
         raise LogError(f"{directory / LOG_FILE}: no tick was recorded, there is nothing to draw")
-    config = yaml.safe_load(_attachment(log, _CONFIG))
+    config = yaml.safe_load(_attachment(log, CONFIG_ATTACHMENT))
     try:
         robot = RobotConfig.model_validate(config["robot"])
         terrain = TypeAdapter(tuple[TerrainConfig, ...]).validate_python(config["scenario"]["terrain"])
         period_s = 1.0 / float(config["controller"]["rate_hz"])
     except (KeyError, TypeError, ValidationError) as error:
         reason = str(error).splitlines()[0]
-        raise LogError(f"{directory / LOG_FILE}: {_CONFIG} in it does not describe a trial ({reason})") from error
+        raise LogError(
+            f"{directory / LOG_FILE}: its {CONFIG_ATTACHMENT} does not describe a trial ({reason})"
+        ) from error
     return TrialView(
         log=log,
         plan=log.plan,
         config=config,
         ground=build_ground(terrain),
-        torque_limits=_torque_limits(_attachment(log, _URDF), robot),
+        torque_limits=_torque_limits(_attachment(log, URDF_ATTACHMENT), robot),
         foot_radius=robot.foot_radius_m,
         period_s=period_s,
         result=read_result(directory) if (directory / RESULT_FILE).is_file() else None,
     )
-
-
-def _log_path(directory: Path) -> Path:
-    path = directory / LOG_FILE
-    if path.is_file():
-        return path
-    part = part_path(path)
-    if part.is_file():
-        raise LogError(f"{directory}: no {LOG_FILE}, but a trial that did not end; run 'quadlab recover {part}'")
-    if (directory / RESULT_FILE).is_file():
-        result = read_result(directory)
-        raise LogError(f"{directory}: no {LOG_FILE}, nothing was recorded: {result.status} ({result.status_reason})")
-    if not directory.is_dir():
-        raise LogError(f"{directory}: no such directory; expected that of a trial, with a {LOG_FILE} in it")
-    present = ", ".join(sorted(entry.name for entry in directory.iterdir())) or "nothing"
-    raise LogError(f"{directory}: no {LOG_FILE} in it; expected the directory of a trial, found {present}")
 
 
 def _attachment(log: TrialLog, name: str) -> bytes:
@@ -131,5 +115,5 @@ def _torque_limits(urdf: bytes, robot: RobotConfig) -> Array:
     names = [template.format(leg=robot.legs[leg]) for leg in LEGS for template in robot.joints]
     missing = [name for name in names if efforts.get(name) is None]
     if missing:
-        raise LogError(f"{_URDF}: joints without a torque limit: {', '.join(missing)}")
+        raise LogError(f"{URDF_ATTACHMENT}: joints without a torque limit: {', '.join(missing)}")
     return np.array([float(efforts[name] or 0.0) for name in names])

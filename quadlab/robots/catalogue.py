@@ -1,24 +1,18 @@
 """The robots that come with quadlab, for use without the command line: tests, notebooks, scripts."""
 
-from pathlib import Path
-
 import yaml
 from pydantic import ValidationError
 
-import quadlab
 from quadlab.errors import ConfigurationError, RobotDescriptionError
+from quadlab.paths import CONF_DIR
 from quadlab.robots.config import RobotConfig
 
-
-def _folder() -> Path:
-    package = Path(quadlab.__file__).parent
-    installed, repository = package / "conf" / "robot", package.parent / "conf" / "robot"
-    return installed if installed.is_dir() else repository
+_ROBOTS = CONF_DIR / "robot"
 
 
 def robot_names() -> tuple[str, ...]:
     """Return the names of the robots in ``conf/robot``."""
-    return tuple(sorted(path.stem for path in _folder().glob("*.yaml")))
+    return tuple(sorted(path.stem for path in _ROBOTS.glob("*.yaml")))
 
 
 def robot_config(name: str) -> RobotConfig:
@@ -28,7 +22,7 @@ def robot_config(name: str) -> RobotConfig:
         RobotDescriptionError: if there is no such robot.
         ConfigurationError: if its file does not describe a robot.
     """
-    path = _folder() / f"{name}.yaml"
+    path = _ROBOTS / f"{name}.yaml"
     if not path.is_file():
         raise RobotDescriptionError(f"unknown robot '{name}'; known: {', '.join(robot_names())}")
     try:

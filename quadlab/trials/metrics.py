@@ -1,7 +1,7 @@
 """What a trial amounts to in numbers, collected tick by tick.
 
-Errors are measured from the truth, against references that live in the world the controller believes in. If its state is
-estimated, the drift of the estimate (position and heading cannot be observed) is a part of them;
+Errors are measured from the truth, against references that live in the world the controller believes in. If its state
+is estimated, the drift of the estimate (position and heading cannot be observed) is a part of them;
 ``EstimationMetrics`` tells how large it is and what error the controller saw.
 """
 

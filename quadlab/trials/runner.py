@@ -8,7 +8,6 @@ from typing import Any
 
 import yaml
 
-from quadlab.configuration import part_of
 from quadlab.controllers.controller import Controller
 from quadlab.controllers.tracking_controller import build_controller
 from quadlab.planners.plan import MotionPlan
@@ -27,9 +26,8 @@ from quadlab.trials.planning import plan_motion
 from quadlab.trials.progress import TrialProgress
 from quadlab.trials.recording.record import BodyPoses, TickRecord
 from quadlab.trials.recording.recorder import Attachments, EventLevel, TrialRecorder
+from quadlab.trials.recording.topics import CONFIG_ATTACHMENT, LOG_FILE, URDF_ATTACHMENT
 from quadlab.trials.result import TrialResult, TrialStatus
-
-LOG_FILE = "trial.mcap"
 
 
 @dataclass(frozen=True)
@@ -150,8 +148,8 @@ def _recorder(
     plan: MotionPlan,
 ) -> TrialRecorder:
     files: Attachments = {
-        "config.yaml": ("text/yaml", yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False).encode()),
-        "robot.urdf": ("application/xml", robot.urdf_text.encode()),
+        CONFIG_ATTACHMENT: ("text/yaml", yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False).encode()),
+        URDF_ATTACHMENT: ("application/xml", robot.urdf_text.encode()),
     }
     manifest = directory / MANIFEST_FILE
     if manifest.is_file():

@@ -2,8 +2,8 @@
 
 from typing import Literal
 
-from quadlab.configuration import Positive, StrictModel, register
-from quadlab.controllers.limits.second_order import position_limit
+from quadlab.configuration import register
+from quadlab.controllers.limits.second_order import HeightRangeConfig, position_limit
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.task import TaskRows
 from quadlab.robots.kinematics import Kinematics
@@ -13,18 +13,10 @@ from quadlab.robots.kinematics import Kinematics
 class HeightOverFootprintLimit:
     """h_min <= z_B - h_z <= h_max with h_z the mean height of the standing feet."""
 
-    class Config(StrictModel):
-        """How high the base may be.
-
-        Attributes:
-            minimum, maximum: as a share of the standing base height.
-            look_ahead_s: k_t t_s of Eq. (27) in [s].
-        """
+    class Config(HeightRangeConfig):
+        """How high the base may be over the feet."""
 
         task: Literal["height_over_footprint"]
-        minimum: Positive
-        maximum: Positive
-        look_ahead_s: Positive
 
     def __init__(self, config: Config) -> None:
         self.config = config
@@ -38,9 +30,6 @@ class HeightOverFootprintLimit:
             kinematics.base_bias[row],
             kinematics.base_position[row] - footprint.sum() / max(len(footprint), 1),
             kinematics.base_linear_velocity[row],
-            (
-                self.config.minimum * reference.standing_height,
-                self.config.maximum * reference.standing_height,
-            ),
+            self.config.bounds(reference.standing_height),
             self.config.look_ahead_s,
         )

@@ -4,8 +4,8 @@ from typing import Literal
 
 import numpy as np
 
-from quadlab.configuration import Positive, StrictModel, register
-from quadlab.controllers.limits.second_order import position_limit
+from quadlab.configuration import register
+from quadlab.controllers.limits.second_order import HeightRangeConfig, position_limit
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.task import TaskRows
 from quadlab.geometry.rotations import skew
@@ -16,18 +16,10 @@ from quadlab.robots.kinematics import Kinematics
 class LimbExtensionLimit:
     """h_min <= z_hip - z_foot <= h_max for each leg; the foot's own motion is not part of the limit."""
 
-    class Config(StrictModel):
-        """How far a leg may reach.
-
-        Attributes:
-            minimum, maximum: height of the hip over its foot, as a share of the standing base height.
-            look_ahead_s: k_t t_s of Eq. (27) in [s].
-        """
+    class Config(HeightRangeConfig):
+        """How far a leg may reach: height of the hip over its foot."""
 
         task: Literal["limb_extension"]
-        minimum: Positive
-        maximum: Positive
-        look_ahead_s: Positive
 
     def __init__(self, config: Config) -> None:
         self.config = config
@@ -46,9 +38,6 @@ class LimbExtensionLimit:
             np.array(biases),
             kinematics.hip_positions[:, 2] - kinematics.foot_positions[:, 2],
             jacobian @ kinematics.generalized_velocity,
-            (
-                self.config.minimum * reference.standing_height,
-                self.config.maximum * reference.standing_height,
-            ),
+            self.config.bounds(reference.standing_height),
             self.config.look_ahead_s,
         )

@@ -1,7 +1,25 @@
 """Limits on positions as limits on accelerations (Bellicoso 2016, Eq. 25-27)."""
 
+from quadlab.configuration import Positive, StrictModel
 from quadlab.controllers.tasks.task import TaskRows, Variable
 from quadlab.geometry.rotations import Array
+
+
+class HeightRangeConfig(StrictModel):
+    """Between which heights something shall stay.
+
+    Attributes:
+        minimum, maximum: as a share of the standing base height.
+        look_ahead_s: k_t t_s of Eq. (27) in [s].
+    """
+
+    minimum: Positive
+    maximum: Positive
+    look_ahead_s: Positive
+
+    def bounds(self, standing_height: float) -> tuple[float, float]:
+        """Return the range in [m] for a robot whose base stands at ``standing_height`` in [m]."""
+        return self.minimum * standing_height, self.maximum * standing_height
 
 
 def position_limit(

@@ -68,7 +68,6 @@ STATE_BLOCKS = (
 """Topic /state: SI units, world components unless the name says otherwise; torques are the applied ones."""
 
 
-
 def _estimate(tick: TickRecord) -> Estimate:
     if tick.estimate is None:
         raise LogError("a log of estimates needs the estimate of every tick")
@@ -126,6 +125,7 @@ CONTROL_BLOCKS = (
     Block("planned_contact", LEGS, lambda tick: tick.telemetry.planned_contacts, FieldType.FIXED32),
     Block("solver_iterations", (), lambda tick: tick.telemetry.solver_iterations, FieldType.FIXED32),
     Block("fallbacks", (), lambda tick: tick.telemetry.fallbacks, FieldType.FIXED32),
+    Block("certificate", (), lambda tick: tick.telemetry.certificate),
 )
 """Topic /control: what the controller wanted; world components; errors are measured minus reference."""
 

@@ -151,9 +151,7 @@ def part_path(path: Path) -> Path:
     return path.with_name(path.name + topics.PART_SUFFIX)
 
 
-def _blocks(
-    level_names: Sequence[str], config: LogConfig, estimates: bool
-) -> dict[str, tuple[str, tuple[Block, ...]]]:
+def _blocks(level_names: Sequence[str], config: LogConfig, estimates: bool) -> dict[str, tuple[str, tuple[Block, ...]]]:
     blocks = {topics.STATE: ("State", STATE_BLOCKS), topics.CONTROL: ("Control", CONTROL_BLOCKS)}
     if estimates:
         blocks[topics.ESTIMATE] = ("Estimate", ESTIMATE_BLOCKS)

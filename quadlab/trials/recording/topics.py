@@ -21,3 +21,8 @@ PLAN_ATTACHMENT = "plan.npz"
 TRIAL_METADATA = "trial"
 PART_SUFFIX = ".part"
 """Added to the name of a log that is still being written."""
+
+LOG_FILE = "trial.mcap"
+"""Name of the log in the directory of its trial."""
+
+CONFIG_ATTACHMENT, URDF_ATTACHMENT = "config.yaml", "robot.urdf"
