@@ -13,6 +13,7 @@ import statistics
 import sys
 import time
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -89,6 +90,7 @@ def paper_problem(robot: RobotModel, state: RobotState, motion: Motion) -> Plann
     )
 
 
+@cache
 def _pattern(name: str) -> CycleConfig:
     return compose_trial([f"gait={name}", "duration_s=20"]).gait.cycles[0]
 

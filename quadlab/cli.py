@@ -1,4 +1,4 @@
-"""The console command ``quadlab``: run a trial, draw it, film it, rescue its log."""
+"""The console command ``quadlab``: run a trial or plan alone, draw it, film it, rescue its log."""
 
 import argparse
 import sys
@@ -9,7 +9,7 @@ from quadlab import __version__
 from quadlab.errors import QuadlabError
 
 EXIT_USAGE = 2
-COMMANDS = ("run", "plot", "render", "recover")
+COMMANDS = ("run", "plan", "plot", "render", "recover")
 
 _EPILOG = """
 quadlab run --help lists what can be overridden. Without a command, quadlab runs a trial:
@@ -26,6 +26,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given and given[0] == "run":
         return _run(given[1:])
+    if given and given[0] == "plan":
+        return _plan(given[1:])
     if _is_override(given):
         return _run(given)
     options = _parser().parse_args(given)
@@ -49,6 +51,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"quadlab {__version__}")
     commands = parser.add_subparsers(required=True, metavar="command")
     commands.add_parser("run", help="run a trial, or with -m a sweep: overrides such as robot=anymal_b gait=trot")
+    commands.add_parser("plan", help="plan without running: the same overrides")
     for name, help_text, what, action in (
         ("plot", "draw the figures of a trial", "directory of the trial", _plot),
         ("render", "make a video of a trial", "directory of the trial", _render),
@@ -64,6 +67,12 @@ def _run(overrides: Sequence[str]) -> int:
     from quadlab.trials.main import main as run_main  # noqa: PLC0415
 
     return run_main(overrides)
+
+
+def _plan(overrides: Sequence[str]) -> int:
+    from quadlab.plotting.plan_files import main as plan_main  # noqa: PLC0415
+
+    return plan_main(overrides)
 
 
 def _plot(directory: Path) -> Iterable[Path]:

@@ -3,6 +3,7 @@
 from typing import Protocol
 
 from quadlab.controllers.telemetry import ControlTelemetry
+from quadlab.controllers.tracking.handover import PlanProgress
 from quadlab.planners.plan import MotionPlan
 from quadlab.robots.state import JointCommand, RobotState
 
@@ -22,6 +23,14 @@ class Controller(Protocol):
 
     def start(self, plan: MotionPlan, state: RobotState) -> None:
         """Begin to follow ``plan``, whose time 0 is the time of ``state``."""
+        ...
+
+    def progress(self, state: RobotState) -> PlanProgress:
+        """Return how far the plan has been followed: what a new plan has to begin from."""
+        ...
+
+    def replace_plan(self, plan: MotionPlan, state: RobotState) -> None:
+        """Go on with ``plan``, made from the ``progress`` at ``state``; contacts and terrain are kept."""
         ...
 
     def tick(self, state: RobotState) -> tuple[JointCommand, ControlTelemetry]:

@@ -9,66 +9,109 @@ give u_dot = U tau + u_0 and lambda = L tau + l_0. A hierarchy whose first level
 "no contact motion" has exactly these solutions, so the remaining levels are solved in the 12 torques alone.
 """
 
-from dataclasses import dataclass
+import math
 
 import numpy as np
 
-from quadlab.controllers.tasks.task import Variable
+from quadlab.controllers.decision_space import DecisionSpace
+from quadlab.controllers.hierarchy.jit import compiled, compiled_entry
 from quadlab.geometry.rotations import Array
-from quadlab.robots.kinematics import Kinematics
+from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 from quadlab.robots.legs import JOINT_COUNT
 
-_BASE = 6
+_BASE = VELOCITY_SIZE - JOINT_COUNT
+_COLUMNS = JOINT_COUNT + 1
 
 
-@dataclass(frozen=True)
-class ReducedDynamics:
-    """The affine maps from the joint torques tau, (12,) in [N m].
-
-    Attributes:
-        acceleration_map, acceleration_offset: U (18, 12) and u_0 (18,).
-        force_map, force_offset: L (3 n, 12) and l_0 (3 n,) for n standing legs.
-    """
-
-    acceleration_map: Array
-    acceleration_offset: Array
-    force_map: Array
-    force_offset: Array
-
-    def map_of(self, variable: Variable) -> tuple[Array, Array]:
-        """Return matrix (n, 12) and offset (n,) that give ``variable`` from the torques."""
-        if variable is Variable.ACCELERATION:
-            return self.acceleration_map, self.acceleration_offset
-        if variable is Variable.FORCE:
-            return self.force_map, self.force_offset
-        return np.eye(JOINT_COUNT), np.zeros(JOINT_COUNT)
-
-    def accelerations(self, torques: Array) -> Array:
-        """Return u_dot, (18,), for ``torques``, (12,) in [N m]."""
-        return self.acceleration_map @ torques + self.acceleration_offset
-
-    def forces(self, torques: Array) -> Array:
-        """Return lambda, (n, 3) in [N], for ``torques``, (12,) in [N m]."""
-        return (self.force_map @ torques + self.force_offset).reshape(-1, 3)
-
-
-def reduce_dynamics(kinematics: Kinematics, stance_legs: list[int]) -> ReducedDynamics:
+def reduce_dynamics(kinematics: Kinematics, stance_legs: list[int]) -> DecisionSpace:
     """Eliminate equations of motion and contacts of ``stance_legs`` (numbers in the order of ``LEGS``)."""
-    inputs = np.zeros((_BASE + JOINT_COUNT, JOINT_COUNT + 1))
-    inputs[_BASE:, :JOINT_COUNT] = np.eye(JOINT_COUNT)
-    inputs[:, JOINT_COUNT] = -kinematics.nonlinear_effects
-    if not stance_legs:
-        free = _solve(kinematics.mass_matrix, inputs)
-        return ReducedDynamics(free[:, :-1], free[:, -1], np.zeros((0, JOINT_COUNT)), np.zeros(0))
-    jacobian = kinematics.contact_jacobians[stance_legs].reshape(3 * len(stance_legs), -1)
-    solved = _solve(kinematics.mass_matrix, np.hstack([inputs, jacobian.T]))
-    free_motion, per_force = solved[:, : JOINT_COUNT + 1], solved[:, JOINT_COUNT + 1 :]
-    rest = -jacobian @ free_motion
-    rest[:, JOINT_COUNT] -= kinematics.contact_bias[stance_legs].ravel()
-    forces = _solve(jacobian @ per_force, rest)
-    accelerations = free_motion + per_force @ forces
-    return ReducedDynamics(accelerations[:, :-1], accelerations[:, -1], forces[:, :-1], forces[:, -1])
+    map_and_offset = _reduce(
+        kinematics.mass_matrix,
+        kinematics.nonlinear_effects,
+        kinematics.contact_jacobians[stance_legs].reshape(3 * len(stance_legs), VELOCITY_SIZE),
+        kinematics.contact_bias[stance_legs].ravel(),
+    )
+    return DecisionSpace(map_and_offset[:, :JOINT_COUNT], map_and_offset[:, JOINT_COUNT])
 
 
-def _solve(matrix: Array, right_side: Array) -> Array:
-    return np.asarray(np.linalg.solve(matrix, right_side), dtype=np.float64)
+@compiled
+def _factorise(matrix: Array) -> None:
+    """Replace the lower triangle of a positive definite ``matrix`` (n, n) by its Cholesky factor; NaN if it is not."""
+    for j in range(len(matrix)):
+        for k in range(j):
+            matrix[j, j] -= matrix[j, k] * matrix[j, k]
+        matrix[j, j] = math.sqrt(matrix[j, j])
+        for i in range(j + 1, len(matrix)):
+            for k in range(j):
+                matrix[i, j] -= matrix[i, k] * matrix[j, k]
+            matrix[i, j] /= matrix[j, j]
+
+
+@compiled
+def _solve_factor(factor: Array, columns: Array) -> None:
+    """Replace ``columns`` (n, m) by G^-1 columns, G the lower triangle of ``factor``."""
+    for i in range(len(factor)):
+        for k in range(i):
+            weight = factor[i, k]
+            if weight != 0.0:  # legs do not couple: a third of the mass matrix is zero
+                for c in range(columns.shape[1]):
+                    columns[i, c] -= weight * columns[k, c]
+        for c in range(columns.shape[1]):
+            columns[i, c] /= factor[i, i]
+
+
+@compiled
+def _solve_transposed_factor(factor: Array, columns: Array) -> None:
+    """Replace ``columns`` (n, m) by G^-T columns, G the lower triangle of ``factor``."""
+    for i in range(len(factor) - 1, -1, -1):
+        for c in range(columns.shape[1]):
+            columns[i, c] /= factor[i, i]
+        for k in range(i):
+            weight = factor[i, k]
+            if weight != 0.0:
+                for c in range(columns.shape[1]):
+                    columns[k, c] -= weight * columns[i, c]
+
+
+@compiled_entry
+def _reduce(mass_matrix: Array, nonlinear_effects: Array, jacobian: Array, bias: Array) -> Array:
+    """Return [U u_0; I 0; L l_0], (30 + m, 13), by Cholesky factors of M = G G^T and J M^-1 J^T = Y^T Y, Y = G^-1 J^T.
+
+    Written out: on matrices of this size the calls of a library take longer than the arithmetic.
+    """
+    size, contacts = VELOCITY_SIZE, len(bias)
+    factor = mass_matrix.copy()
+    _factorise(factor)
+    half = np.zeros((size, _COLUMNS + contacts))  # G^-1 [S^T, -h, J^T]
+    for i in range(size):
+        if i >= _BASE:
+            half[i, i - _BASE] = 1.0
+        half[i, JOINT_COUNT] = -nonlinear_effects[i]
+        for c in range(contacts):
+            half[i, _COLUMNS + c] = jacobian[c, i]
+    _solve_factor(factor, half)
+    delassus, forces = np.zeros((contacts, contacts)), np.zeros((contacts, _COLUMNS))
+    for k in range(size):
+        for i in range(contacts):
+            weight = half[k, _COLUMNS + i]
+            for c in range(_COLUMNS):
+                forces[i, c] -= weight * half[k, c]
+            for c in range(i + 1):
+                delassus[i, c] += weight * half[k, _COLUMNS + c]
+    for i in range(contacts):
+        forces[i, JOINT_COUNT] -= bias[i]
+    _factorise(delassus)
+    _solve_factor(delassus, forces)
+    _solve_transposed_factor(delassus, forces)
+    motion = half[:, :_COLUMNS].copy()
+    for i in range(size):
+        for k in range(contacts):
+            for c in range(_COLUMNS):
+                motion[i, c] += half[i, _COLUMNS + k] * forces[k, c]
+    _solve_transposed_factor(factor, motion)
+    result = np.zeros((size + JOINT_COUNT + contacts, _COLUMNS))
+    result[:size] = motion
+    for joint in range(JOINT_COUNT):
+        result[size + joint, joint] = 1.0
+    result[size + JOINT_COUNT :] = forces
+    return result

@@ -1,8 +1,7 @@
 """What the tasks of one tick shall follow, in world components."""
 
 from dataclasses import dataclass
-
-import numpy as np
+from functools import cached_property
 
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
@@ -47,12 +46,12 @@ class ControlReference:
     standing_height: float
     ground_axes: Array
 
-    @property
+    @cached_property
     def stance_legs(self) -> list[int]:
         """Numbers of the legs that carry load."""
-        return [int(leg) for leg in np.flatnonzero(self.stance)]
+        return [leg for leg, stands in enumerate(self.stance.tolist()) if stands]
 
-    @property
+    @cached_property
     def swing_legs(self) -> list[int]:
         """Numbers of the legs in the air."""
-        return [int(leg) for leg in np.flatnonzero(~self.stance)]
+        return [leg for leg, stands in enumerate(self.stance.tolist()) if not stands]

@@ -1,5 +1,6 @@
 """The part of a controller that finds torques for the reference of a tick; what controller variants differ in."""
 
+import math
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -19,6 +20,7 @@ class Resolution:
         residuals: norm of the unmet part of each level by name.
         iterations: of the solver.
         solved: whether the solver finished; if not, ``torques`` is not to be used.
+        certificate: how far from optimal the torques are, largest over the levels; NaN if it was not asked for.
     """
 
     torques: Array
@@ -27,6 +29,7 @@ class Resolution:
     residuals: dict[str, float]
     iterations: int
     solved: bool
+    certificate: float = math.nan
 
 
 class Resolver(Protocol):

@@ -1,17 +1,17 @@
-"""Levels of tasks in the form the hierarchical solver reads, written in the joint torques."""
+"""Levels of tasks in the form the hierarchical solver reads, written in the decision variables of the tick."""
 
 from collections.abc import Sequence
+from itertools import accumulate
 
 import numpy as np
 
-from quadlab.controllers.hierarchy import StackedLevels
-from quadlab.controllers.reduced_dynamics import ReducedDynamics
+from quadlab.controllers.decision_space import BLOCKS, DecisionSpace
+from quadlab.controllers.hierarchy import Level, StackedLevels, stack
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.task_levels import LevelConfig, build_task
-from quadlab.controllers.tasks.task import TaskRows, Variable
+from quadlab.controllers.tasks.task import TaskRows
 from quadlab.geometry.rotations import Array
 from quadlab.robots.kinematics import Kinematics
-from quadlab.robots.legs import JOINT_COUNT
 
 
 class TaskStack:
@@ -19,31 +19,41 @@ class TaskStack:
 
     def __init__(self, levels: Sequence[LevelConfig]) -> None:
         self.names = tuple(level.name for level in levels)
-        self._levels = [[build_task(config) for config in level.tasks] for level in levels]
+        self._tasks = [build_task(config) for level in levels for config in level.tasks]
+        self._level_ends = [0, *accumulate(len(level.tasks) for level in levels)]
 
-    def assemble(self, kinematics: Kinematics, reference: ControlReference, dynamics: ReducedDynamics) -> StackedLevels:
-        """Return all rows of a tick in the torques, highest priority first."""
-        rows = [[task.rows(kinematics, reference) for task in tasks] for tasks in self._levels]
-        sizes = [sum(len(part.lower) for part in parts) for parts in rows]
-        matrix, lower, upper = in_torques([part for parts in rows for part in parts], dynamics)
-        return StackedLevels(matrix, lower, upper, np.cumsum([0, *sizes], dtype=np.int64))
+    def assemble(self, kinematics: Kinematics, reference: ControlReference, space: DecisionSpace) -> StackedLevels:
+        """Return all rows of a tick, highest priority first, below the constraints of the decision space."""
+        rows = [task.rows(kinematics, reference) for task in self._tasks]
+        starts = [0, *accumulate([len(part.lower) for part in rows])]
+        matrix, lower, upper = in_decision_variables(rows, space)
+        levels = StackedLevels(matrix, lower, upper, np.array([starts[end] for end in self._level_ends]))
+        return _below(space.constraints, levels) if space.constraints else levels
 
 
-def in_torques(parts: Sequence[TaskRows], dynamics: ReducedDynamics) -> tuple[Array, Array, Array]:
-    """Return matrix, lower and upper of all ``parts``, in their order, with one product for each kind of variable."""
-    starts = np.cumsum([0, *(len(part.lower) for part in parts)])
-    matrix = np.empty((starts[-1], JOINT_COUNT))
+def _below(constraints: Sequence[Level], levels: StackedLevels) -> StackedLevels:
+    """Return ``levels`` with ``constraints`` on top."""
+    top = stack(constraints)
+    return StackedLevels(
+        np.concatenate([top.matrix, levels.matrix]),
+        np.concatenate([top.lower, levels.lower]),
+        np.concatenate([top.upper, levels.upper]),
+        np.concatenate([top.breaks[:-1], top.breaks[-1] + levels.breaks]),
+    )
+
+
+def in_decision_variables(parts: Sequence[TaskRows], space: DecisionSpace) -> tuple[Array, Array, Array]:
+    """Return matrix, lower and upper of all ``parts``, in their order, in the decision variables.
+
+    The rows are written in y = [u_dot, tau, lambda] first, so that one product takes all of them to x.
+    """
     lower = np.concatenate([part.lower for part in parts])
     upper = np.concatenate([part.upper for part in parts])
-    for variable in Variable:
-        chosen = [index for index, part in enumerate(parts) if part.variable is variable]
-        if not chosen:
-            continue
-        linear, offset = dynamics.map_of(variable)
-        block = np.concatenate([parts[index].matrix for index in chosen])
-        where = np.concatenate([np.arange(starts[index], starts[index + 1]) for index in chosen])
-        shift = block @ offset
-        matrix[where] = block @ linear
-        lower[where] -= shift
-        upper[where] -= shift
-    return matrix, lower, upper
+    wide = np.zeros((len(lower), len(space.offset)))
+    first = 0
+    for part in parts:
+        last = first + len(part.lower)
+        wide[first:last, BLOCKS[part.variable]] = part.matrix
+        first = last
+    shift = wide @ space.offset
+    return wide @ space.linear, lower - shift, upper - shift

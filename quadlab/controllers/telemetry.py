@@ -1,5 +1,6 @@
 """What a controller says about one tick, for log, plots and statistics."""
 
+import math
 from dataclasses import dataclass, field
 from enum import IntEnum
 
@@ -21,8 +22,9 @@ class ControlTelemetry:
     """One tick of a controller; positions in world components and in [m] unless said.
 
     Attributes:
-        plan_time_s: time at which the plan was looked up in [s].
-        plan_pose_in_world: x, y in [m] and yaw in [rad] of the plan frame as the torso is aligned with it, (3,).
+        plan_time_s: time at which the plan was looked up in [s]; it goes on if the plan is replaced.
+        plan_pose_in_world: x, y in [m] and yaw in [rad] of the plan frame as the torso is aligned with it, (3,); if
+            the plan was replaced, of the first one.
         com_position, com_velocity: measured, (3,) in [m], [m/s].
         com_position_reference, com_velocity_reference: (3,); z is the height that follows from the base height.
         base_height_reference: in [m].
@@ -39,6 +41,7 @@ class ControlTelemetry:
         solver_iterations: of the tick.
         fallbacks: ticks so far in which the solver's answer was not used.
         model_us, reference_us, solve_us: computing time of the tick's parts in [us].
+        certificate: how far from optimal the solver's answer is, largest over the levels; NaN if it was not asked for.
         events: what happened in this tick, one line each, e.g. "LF early touch-down at 0.82 of swing".
     """
 
@@ -65,6 +68,7 @@ class ControlTelemetry:
     model_us: float
     reference_us: float
     solve_us: float
+    certificate: float = math.nan
     events: tuple[str, ...] = field(default=())
 
     @property

@@ -31,7 +31,7 @@ def describe_tick(
     height_of_com_over_base = kinematics.com_position[2] - kinematics.base_position[2]
     return ControlTelemetry(
         plan_time_s=tracked.plan_time_s,
-        plan_pose_in_world=tracked.torso_alignment.origin(),
+        plan_pose_in_world=tracked.plan_pose_in_world,
         com_position=kinematics.com_position,
         com_velocity=kinematics.com_velocity,
         com_position_reference=np.array([*reference.com_position, reference.base_height + height_of_com_over_base]),
@@ -53,5 +53,6 @@ def describe_tick(
         model_us=timings_us[0],
         reference_us=timings_us[1],
         solve_us=timings_us[2],
+        certificate=resolution.certificate,
         events=tracked.events,
     )

@@ -12,6 +12,7 @@ from quadlab.controllers.joint_reference import joint_drive
 from quadlab.controllers.resolver import Resolution, Resolver
 from quadlab.controllers.telemetry import ControlTelemetry
 from quadlab.controllers.tick_report import describe_tick
+from quadlab.controllers.tracking.handover import PlanProgress
 from quadlab.controllers.tracking.tracker import MotionTracker
 from quadlab.errors import QuadlabError
 from quadlab.planners.plan import MotionPlan
@@ -46,18 +47,34 @@ class TrackingController:
         self._start_s = state.time_s
         self._tracker = MotionTracker(self.config.tracking, self.robot, self.period_s, plan, kinematics)
 
+    def progress(self, state: RobotState) -> PlanProgress:
+        """Return how far the plan has been followed: what a new plan has to begin from.
+
+        Raises:
+            QuadlabError: if no plan was started.
+        """
+        return self._started().progress(state.time_s - self._start_s, self.robot.kinematics(state))
+
+    def replace_plan(self, plan: MotionPlan, state: RobotState) -> None:
+        """Go on with ``plan``, made from the ``progress`` at ``state``; contacts and terrain are kept.
+
+        Raises:
+            QuadlabError: if no plan was started.
+        """
+        self._started().replace_plan(plan, state.time_s - self._start_s, self.robot.kinematics(state))
+        self._start_s = state.time_s
+
     def tick(self, state: RobotState) -> tuple[JointCommand, ControlTelemetry]:
         """Return torques for the next control period.
 
         Raises:
             QuadlabError: if no plan was started.
         """
-        if self._tracker is None:
-            raise QuadlabError("controller: tick before start; call start(plan, state) first")
+        tracker = self._started()
         began = time.perf_counter()
         kinematics = self.robot.kinematics(state)
         modelled = time.perf_counter()
-        tracked = self._tracker.update(state.time_s - self._start_s, kinematics, state.foot_forces_in_world[:, 2])
+        tracked = tracker.update(state.time_s - self._start_s, kinematics, state.foot_forces_in_world[:, 2])
         referenced = time.perf_counter()
         resolution = self.resolver.resolve(kinematics, tracked.reference, self._torques)
         accepted = self._accept(resolution)
@@ -72,6 +89,11 @@ class TrackingController:
         drive_config: JointPdConfig | None = self.config.joint_pd
         drive = joint_drive(drive_config, kinematics, tracked.reference, accepted) if drive_config else None
         return JointCommand(accepted.torques, drive), telemetry
+
+    def _started(self) -> MotionTracker:
+        if self._tracker is None:
+            raise QuadlabError("controller: no plan to follow; call start(plan, state) first")
+        return self._tracker
 
     def _accept(self, resolution: Resolution) -> Resolution:
         """Take the resolver's answer, or count it and keep the last torques if it did not finish."""

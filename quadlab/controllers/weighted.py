@@ -3,16 +3,15 @@
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, model_validator
 
 from quadlab.configuration import Positive, register
-from quadlab.controllers.controller_config import TrackingControllerConfig
+from quadlab.controllers.formulation import FORMULATIONS, constraint_names
 from quadlab.controllers.hierarchical import resolve_levels
 from quadlab.controllers.hierarchy import StackedLevels
-from quadlab.controllers.reduced_dynamics import reduce_dynamics
+from quadlab.controllers.level_solver import LevelledControllerConfig, LevelSolver
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.resolver import Resolution
-from quadlab.controllers.task_levels import LevelConfig, check_level_names
 from quadlab.controllers.task_stack import TaskStack
 from quadlab.geometry.rotations import Array
 from quadlab.robots.kinematics import Kinematics
@@ -26,22 +25,15 @@ class WeightedResolver:
     solution; friction gives way only to them), the others share one objective.
     """
 
-    class Config(TrackingControllerConfig):
-        """Tasks, weights and tracking.
+    class Config(LevelledControllerConfig):
+        """Tasks, weights and tracking; levels without a weight come first.
 
         Attributes:
-            levels: as of the hierarchical controller; levels without a weight come first.
             weights: of the squared residuals, by level name.
         """
 
         kind: Literal["weighted"]
-        levels: Annotated[tuple[LevelConfig, ...], Field(min_length=1)]
         weights: Annotated[dict[str, Positive], Field(min_length=1)]
-
-        @field_validator("levels")
-        @classmethod
-        def _unique_names(cls, levels: tuple[LevelConfig, ...]) -> tuple[LevelConfig, ...]:
-            return check_level_names(levels)
 
         @model_validator(mode="after")
         def _weights_name_the_last_levels(self) -> Self:
@@ -56,15 +48,18 @@ class WeightedResolver:
     def __init__(self, config: Config) -> None:
         self.config = config
         self._stack = TaskStack(config.levels)
-        self._limits = len(config.levels) - len(config.weights)
-        self._roots = np.sqrt([config.weights[name] for name in self._stack.names[self._limits :]])
-        self.level_names = (*self._stack.names[: self._limits], "weighted")
+        self._formulate = FORMULATIONS[config.formulation]
+        names = (*constraint_names(config.formulation), *self._stack.names)
+        self._limits = len(names) - len(config.weights)
+        self._roots = np.sqrt([config.weights[name] for name in names[self._limits :]])
+        self.level_names = (*names[: self._limits], "weighted")
+        self._solver = LevelSolver(config, self.level_names)
 
     def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
         """Return the torques of the weighted optimum."""
-        dynamics = reduce_dynamics(kinematics, reference.stance_legs)
-        levels = self._merged(self._stack.assemble(kinematics, reference, dynamics))
-        return resolve_levels(self.level_names, levels, dynamics, reference, last_torques)
+        space = self._formulate(kinematics, reference.stance_legs)
+        levels = self._merged(self._stack.assemble(kinematics, reference, space))
+        return resolve_levels(self._solver, levels, space, reference, last_torques)
 
     def _merged(self, levels: StackedLevels) -> StackedLevels:
         """Scale the weighted levels by the roots of their weights and make one level of them."""

@@ -34,21 +34,22 @@ class ContactDetector:
         config: thresholds.
         weight: of the robot in [N].
         period_s: time between updates in [s].
+        touches: feet that feel the ground, (4,); those that have just landed have not settled yet.
     """
 
     config: ContactDetectionConfig
     weight: float
     period_s: float
+    touches: BoolArray = field(default_factory=lambda: np.zeros(LEG_COUNT, dtype=bool))
     _force: Array = field(default_factory=lambda: np.zeros(LEG_COUNT))
-    _touches: BoolArray = field(default_factory=lambda: np.zeros(LEG_COUNT, dtype=bool))
     _touched_s: Array = field(default_factory=lambda: np.zeros(LEG_COUNT))
 
     def update(self, normal_forces: Array) -> BoolArray:
         """Return which feet stand, (4,), after one more period with ``normal_forces``, (4,) in [N]."""
         share = self.period_s / (self.config.time_constant_s + self.period_s)
         self._force = self._force + share * (normal_forces - self._force)
-        threshold = np.where(self._touches, self.config.lift_off_share, self.config.touch_down_share)
-        self._touches = self._force > threshold * self.weight
-        self._touched_s = np.where(self._touches, self._touched_s + self.period_s, 0.0)
+        threshold = np.where(self.touches, self.config.lift_off_share, self.config.touch_down_share)
+        self.touches = self._force > threshold * self.weight
+        self._touched_s = np.where(self.touches, self._touched_s + self.period_s, 0.0)
         standing: BoolArray = self._touched_s > self.config.settling_s
         return standing

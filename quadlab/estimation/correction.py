@@ -1,4 +1,4 @@
-"""The filter's correction by the legs: where the base is relative to feet that stand still (Bloesch 2012, Eq. 48-55)."""
+"""The filter's correction by the legs: where the base is relative to standing feet (Bloesch 2012, II-D and III-E)."""
 
 from dataclasses import dataclass
 
@@ -19,12 +19,14 @@ class LegMeasurementConfig(StrictModel):
         encoder_rad: standard deviation of a joint angle in [rad].
         kinematics_m: standard deviation of a foot position by errors of the kinematic model in [m].
         gate: squared Mahalanobis distance (3 degrees of freedom) beyond which a foot counts as slipping.
+        blind_ticks: after so many refusals in a row of all standing feet they are used in spite of the gate.
         patience_ticks: after so many refusals in a row a standing foot starts anew where the legs say it is.
     """
 
     encoder_rad: NonNegative
     kinematics_m: Positive
     gate: Positive
+    blind_ticks: int
     patience_ticks: int
 
 
@@ -46,7 +48,7 @@ class FootInnovations:
 def foot_innovations(
     state: FilterState, covariance: Array, legs: LegKinematics, config: LegMeasurementConfig
 ) -> FootInnovations:
-    """Return e_i = R s_i - (p_i - r) for the measured foot s_i in base axes (Bloesch 2012, Eq. 15, in world axes).
+    """Return e_i = R s_i - (p_i - r) for the measured foot s_i in base axes (Bloesch 2012, II-D, in world axes).
 
     To first order e_i = dp_i - dr + R n_i with the noise n_i of covariance J_i J_i^T sigma_q^2 + sigma_s^2 I.
     """
@@ -99,7 +101,7 @@ def correct(state: FilterState, covariance: Array, innovations: FootInnovations,
     values = innovations.values[chosen].ravel()
     solved = np.linalg.solve(crossed @ jacobian.T + noise, np.column_stack([crossed, values]))
     gain = solved[:, :-1].T
-    left = np.eye(ERROR_SIZE) - gain @ jacobian
+    left = _EYE - gain @ jacobian
     joseph = left @ covariance @ left.T + gain @ noise @ gain.T
     return Correction(box_plus(state, gain @ values), 0.5 * (joseph + joseph.T), float(values @ solved[:, -1]))
 
@@ -124,9 +126,7 @@ def place_foot(
     placed[foot] = placed[POSITION]
     placed[:, foot] = placed[:, POSITION]
     placed[foot, foot] += noise
-    moved = FilterState(
-        state.position, state.velocity, state.rotation, feet, state.accelerometer_bias, state.gyro_bias
-    )
+    moved = FilterState(state.position, state.velocity, state.rotation, feet, state.accelerometer_bias, state.gyro_bias)
     return moved, placed
 
 
@@ -139,6 +139,7 @@ def _relative_covariances(covariance: Array) -> Array:
     return relative
 
 
+_EYE = np.eye(ERROR_SIZE)
 _JACOBIANS = {
     tuple(feet): measurement_jacobian(feet)
     for feet in ([leg for leg in range(LEG_COUNT) if flags >> leg & 1] for flags in range(1, 1 << LEG_COUNT))

@@ -1,6 +1,6 @@
 """An extended Kalman filter that fuses inertial unit, leg kinematics and contacts (Bloesch 2012).
 
-Roll, pitch, velocity and the biases are observable; position and heading are not and drift (Bloesch 2012, IV-B).
+Roll, pitch, velocity and the biases are observable; position and heading are not and drift (Bloesch 2012, IV).
 """
 
 import time
@@ -65,6 +65,9 @@ class InitialUncertaintyConfig(StrictModel):
 @register("estimator", "ekf")
 class ExtendedKalmanFilter:
     """Predicts with the inertial unit, corrects with the feet that stand.
+
+    A foot that has slipped does not fit what the others and the inertial unit say, and is refused; if none fits for a
+    while, it is the prediction that is wrong, and all are used. A foot's force is zero unless contact is detected.
 
     Attributes:
         sensors: errors of the sensors that it is given.
@@ -140,7 +143,8 @@ class ExtendedKalmanFilter:
         correction, used = self._correct(legs, landed)
         self._remember(reading, legs)
         update_us = 1e6 * (time.perf_counter() - began)
-        return Estimate(self._robot_state(reading, forces), self._report(correction, used, update_us))
+        felt = np.where(self._detector.touches[:, None], forces, 0.0)
+        return Estimate(self._robot_state(reading, felt), self._report(correction, used, update_us))
 
     def _predict(self, reading: SensorReading, legs: LegKinematics) -> None:
         spins = 0.5 * (self._foot_spins + legs.foot_spins)
@@ -170,10 +174,12 @@ class ExtendedKalmanFilter:
         """Correct by the feet that keep standing, then place those that landed or slipped too long."""
         config = self.config.leg_measurement
         innovations = foot_innovations(self.state, self.covariance, legs, config)
-        fitting = innovations.distances <= config.gate
         measured = self._standing & ~landed
-        refused = measured & ~fitting
-        correction = correct(self.state, self.covariance, innovations, measured & fitting)
+        used = measured & (innovations.distances <= config.gate)
+        if not used.any() and bool((self._refusals[measured] >= config.blind_ticks).all()):
+            used = measured
+        refused = measured & ~used
+        correction = correct(self.state, self.covariance, innovations, used)
         self.state, self.covariance = correction.state, correction.covariance
         self._outliers += int(refused.sum())
         self._refusals = np.where(refused, self._refusals + 1, 0)
@@ -181,7 +187,7 @@ class ExtendedKalmanFilter:
             noise = innovations.noise[leg]
             self.state, self.covariance = place_foot(self.state, self.covariance, legs, noise, leg)
             self._refusals[leg] = 0
-        return correction, measured & fitting
+        return correction, used
 
     def _remember(self, reading: SensorReading, legs: LegKinematics) -> None:
         self._joint_velocities, self._foot_spins = reading.joint_velocities, legs.foot_spins

@@ -1,7 +1,7 @@
 """The state of the filter, its error and the box-plus that joins them.
 
-State: base position r, base velocity v, base orientation R (base to world), centres of the four foot spheres p_i, all in
-world components, and the biases b_f, b_w of accelerometer and gyroscope in base axes (Bloesch 2012, Eq. 17, with the
+State: base position r, base velocity v, base orientation R (base to world), centres of the four foot spheres p_i, all
+in world components, and the biases b_f, b_w of accelerometer and gyroscope in base axes (Bloesch 2012, III-B, in the
 same order; there the feet are points).
 
 The error d = (dr, dv, dtheta, dp_1..4, db_f, db_w), (27,), is that of Hartley 2020 (contact-aided invariant EKF):
@@ -10,8 +10,8 @@ The error d = (dr, dv, dtheta, dp_1..4, db_f, db_w), (27,), is that of Hartley 2
     v     = exp(dtheta) v^ + dv        p_i = exp(dtheta) p_i^ + dp_i        b = b^ + db
 
 It deviates from Bloesch 2012, where dtheta is in base axes and the position errors are plain differences. There, the
-linearisation at changing estimates would make the heading seem observable, which the observability constraint of
-section IV-C repairs. Here the measurement Jacobian is constant and the unobservable directions (position, rotation about
+linearisation at changing estimates would make the heading seem observable, which an observability constraint repairs
+(its section IV). Here the measurement Jacobian is constant and the unobservable directions (position, rotation about
 the vertical) are the same at every estimate, so no constraint is needed.
 """
 

@@ -50,10 +50,10 @@ class LegModel:
         pin.computeJointJacobians(self._model, self._data, self._configuration)
         pin.updateFramePlacements(self._model, self._data)
         centers, jacobians = np.empty((LEG_COUNT, 3)), np.empty((LEG_COUNT, 6, 3))
+        placements, axes = self._data.oMf, pin.LOCAL_WORLD_ALIGNED
         for leg, (frame, columns) in enumerate(zip(self._frames, self._legs, strict=True)):
-            centers[leg] = self._data.oMf[frame].translation
-            full = pin.getFrameJacobian(self._model, self._data, frame, pin.LOCAL_WORLD_ALIGNED)
-            jacobians[leg] = full[:, columns]
+            centers[leg] = placements[frame].translation
+            jacobians[leg] = pin.getFrameJacobian(self._model, self._data, frame, axes)[:, columns]
         velocities = joint_velocities.reshape(LEG_COUNT, 3, 1)
         return LegKinematics(centers, jacobians[:, :3], (jacobians[:, 3:] @ velocities)[:, :, 0])
 
@@ -73,8 +73,8 @@ class LegModel:
         """
         motion = self._inverse_dynamics(reading, joint_accelerations)
         unexplained = (motion - reading.joint_torques).reshape(LEG_COUNT, 3, 1)
-        forces: Array = np.linalg.solve(legs.jacobians.transpose(0, 2, 1), unexplained)[:, :, 0]
-        return forces
+        forces = np.linalg.solve(legs.jacobians.transpose(0, 2, 1), unexplained)
+        return np.asarray(forces[:, :, 0], np.float64)
 
     def _inverse_dynamics(self, reading: SensorReading, joint_accelerations: Array) -> Array:
         """Return the joint torques that the motion takes without contact, (12,) in [N m].

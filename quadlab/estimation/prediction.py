@@ -1,5 +1,6 @@
-"""The filter's step from one reading of the inertial unit to the next (Bloesch 2012, Eq. 30-37)."""
+"""The filter's step from one reading of the inertial unit to the next (Bloesch 2012, III-C and III-D)."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,10 +89,10 @@ def inertial_step(state: FilterState, reading: SensorReading, foot_spins: Array,
 def predict_state(state: FilterState, step: InertialStep, foot_radius: float) -> FilterState:
     """Return the state one period T later.
 
-        r+ = r + T v + T^2 / 2 (f + g)      v+ = v + T (f + g)      R+ = R exp(T w)      p_i+ = p_i + T Omega_i x rho e_z
+        r+ = r + T v + T^2 / 2 (f + g)     v+ = v + T (f + g)     R+ = R exp(T w)     p_i+ = p_i + T Omega_i x rho e_z
 
-    with the specific force f in world components. Deviation from Bloesch 2012: a spherical foot of radius rho rolls on the
-    (level) ground with the angular velocity Omega_i of its shank, by about 1 cm in a stance; its feet are points.
+    with the specific force f in world components. Deviation from Bloesch 2012, whose feet are points: a spherical foot
+    of radius rho rolls on the (level) ground with the angular velocity Omega_i of its shank, by about 1 cm in a stance.
     """
     period_s = step.period_s
     acceleration = step.specific_force_in_world + _GRAVITY
@@ -138,7 +139,7 @@ def process_noise(dynamics: Array, config: ProcessNoiseConfig, standing: Array, 
     """Return the covariance Q, (27, 27), of the error that one period adds.
 
     The noise of gyroscope and accelerometer enters where their biases do. Q is the first-order discretisation of
-    Bloesch 2012, Eq. 39-47.
+    Bloesch 2012, III-D.
 
     Args:
         dynamics: F of the period.
@@ -148,9 +149,10 @@ def process_noise(dynamics: Array, config: ProcessNoiseConfig, standing: Array, 
     """
     inputs = dynamics[:, ACCELEROMETER_BIAS.start : GYRO_BIAS.stop].copy()
     inputs[ACCELEROMETER_BIAS.start :] = 0.0
-    densities = np.repeat([config.accelerometer_mps2_per_sqrt_hz, config.gyro_radps_per_sqrt_hz], 3)
-    scaled = inputs * (densities / np.sqrt(period_s))
-    noise: Array = scaled @ scaled.T
+    root_s = math.sqrt(period_s)
+    inputs[:, :3] *= config.accelerometer_mps2_per_sqrt_hz / root_s
+    inputs[:, 3:] *= config.gyro_radps_per_sqrt_hz / root_s
+    noise: Array = inputs @ inputs.T
     diagonal = np.einsum("ii->i", noise)
     diagonal[FEET] += np.repeat(period_s * config.foot_mps_per_sqrt_hz**2 * standing, 3)
     diagonal[ACCELEROMETER_BIAS] += period_s * config.accelerometer_bias_mps3_per_sqrt_hz**2

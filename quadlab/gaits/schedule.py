@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from quadlab.errors import QuadlabError
 from quadlab.geometry.rotations import Array
 
 BoolArray = NDArray[np.bool_]
@@ -78,6 +79,21 @@ class ContactSchedule:
             return 0, None
         last = self.swings[leg][count - 1]
         return (count - 1, last) if time_s < last.end_s - _TIME_TOLERANCE else (count, None)
+
+    def after(self, time_s: float) -> "ContactSchedule":
+        """Return what is left of the schedule at ``time_s`` in [s], which becomes its time 0.
+
+        A swing under way begins at its time 0 and has its remaining duration.
+
+        Raises:
+            QuadlabError: if nothing is left.
+        """
+        if not time_s < self.duration_s - _TIME_TOLERANCE:
+            raise QuadlabError(f"schedule: nothing is left at {time_s:g} s, it ends at {self.duration_s:g} s")
+        phase = self.phase_at(time_s)
+        durations = self.durations_s[phase:].copy()
+        durations[0] = self.switch_times_s[phase + 1] - max(time_s, 0.0)
+        return ContactSchedule(durations, self.contacts[phase:].copy())
 
     def _swings_of(self, leg: int) -> tuple[Swing, ...]:
         found: list[Swing] = []

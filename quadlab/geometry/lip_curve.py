@@ -56,8 +56,10 @@ class LipCurve:
         scale = self.rate**derivative
         value: Array = (scale * even) * p + (scale * odd) * q if derivative % 2 == 0 else scale * (odd * p + even * q)
         if derivative == 0:
-            return value + offset + local * slope
-        return value + slope if derivative == 1 else value
+            value += offset + local * slope
+        if derivative == 1:
+            value += slope
+        return value
 
     def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
         """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""
@@ -67,5 +69,7 @@ class LipCurve:
         first, second = (even, odd) if derivative % 2 == 0 else (odd, even)
         value: Array = self.rate**derivative * (first * p + second * q)
         if derivative == 0:
-            return value + offset + local * slope
-        return value + slope if derivative == 1 else value
+            value += offset + local * slope
+        if derivative == 1:
+            value += slope
+        return value

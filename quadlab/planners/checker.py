@@ -110,7 +110,7 @@ def _support(plan: MotionPlan, vertices: Array, samples: Samples) -> dict[str, f
     worst = [0.0]
     for phase, contacts in enumerate(plan.schedule.contacts):
         middle = 0.5 * float(switches[phase] + switches[phase + 1])
-        corners = np.concatenate([_corners(plan, leg, middle, vertices) for leg in np.flatnonzero(contacts)])
+        corners = np.concatenate([_corners(plan, leg, middle, vertices) for leg in np.flatnonzero(contacts).tolist()])
         held = (samples.inside > switches[phase]) & (samples.inside < switches[phase + 1])
         worst.append(float(distances_outside(cop[held], corners).max()))
     return {"cop_outside_mm": _MILLI * float(np.max(worst))}

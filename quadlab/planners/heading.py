@@ -10,11 +10,12 @@ from quadlab.planners.problem import Waypoints
 def heading_spline(waypoints: Waypoints) -> PiecewisePolynomial:
     """Return yaw over time in [rad], d = 1: quintic between waypoints, twice continuously differentiable.
 
-    It is at rest at both ends and has no angular acceleration at waypoints. Where the yaw of the waypoints is
-    monotone so is the heading: it never swings back before a turn.
+    It begins with the given yaw rate, ends at rest and has no angular acceleration at waypoints. Where it begins at
+    rest and the yaw of the waypoints is monotone so is the heading: it never swings back before a turn.
     """
     yaw = waypoints.poses[:, 2]
     rates = _monotone_rates(waypoints.times_s, yaw)
+    rates[0] = waypoints.yaw_rate
     states = np.stack([yaw, rates, np.zeros_like(yaw)], axis=1)[:, :, None]
     pieces = [
         quintic_between(states[i], states[i + 1], float(duration))

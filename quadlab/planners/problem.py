@@ -57,10 +57,12 @@ class Waypoints:
     Attributes:
         times_s: (n,) increasing in [s].
         poses: (n, 3): x, y in [m] and yaw in [rad] (not wrapped), in the plan frame.
+        yaw_rate: of the heading at the first one in [rad/s].
     """
 
     times_s: Array
     poses: Array
+    yaw_rate: float = 0.0
 
 
 @dataclass(frozen=True)

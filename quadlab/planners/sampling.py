@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quadlab.gaits.schedule import Swing
 from quadlab.geometry.curve import Curve
 from quadlab.geometry.polygons import convex_hull
 from quadlab.geometry.rotations import Array
@@ -61,16 +62,22 @@ def largest_norm(rows: Array) -> float:
 
 def foot_positions(plan: MotionPlan, leg: int, samples: Samples) -> Array:
     """Return one foot over the ground at all samples, (s, 2): standing or on the cubic between two footholds."""
-    footholds, swings = plan.footholds[leg][:, :2], plan.schedule.swings[leg]
+    return foot_path(plan.footholds[leg], plan.schedule.swings[leg], samples)
+
+
+def foot_path(footholds: Array, swings: Sequence[Swing], samples: Samples) -> Array:
+    """Return where a foot with these ``footholds`` (swings + 1, 3) is over the ground at all samples, (s, 2)."""
+    places = footholds[:, :2]
     if not swings:
-        return np.repeat(footholds, len(samples.times), axis=0)
+        return np.repeat(places, len(samples.times), axis=0)
     starts = np.array([swing.start_s for swing in swings])
     ends = np.array([swing.end_s for swing in swings])
     begun, landed = np.searchsorted(starts, samples.inside), np.searchsorted(ends, samples.inside)
     swing = np.minimum(landed, len(swings) - 1)
     fraction = np.clip((samples.times - starts[swing]) / (ends - starts)[swing], 0.0, 1.0)
     blend = np.where(begun > landed, swing_blend(fraction), 0.0)[:, None]
-    return (1.0 - blend) * footholds[landed] + blend * footholds[begun]
+    path: Array = (1.0 - blend) * places[landed] + blend * places[begun]
+    return path
 
 
 def turned_vertices(vertices: Array, yaws: Array) -> Array:

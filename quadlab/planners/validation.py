@@ -105,6 +105,7 @@ def _validate_waypoints(waypoints: Waypoints, duration_s: float) -> None:
         raise PlanningProblemError(f"waypoints: {count} given, expected a start and a goal")
     _finite("waypoints.times_s", waypoints.times_s, (count,))
     _finite("waypoints.poses", waypoints.poses, (count, 3))
+    _finite("waypoints.yaw_rate", np.asarray(waypoints.yaw_rate), ())
     if not (np.diff(waypoints.times_s) > 0.0).all():
         raise PlanningProblemError("waypoints.times_s: not increasing")
     first, last = float(waypoints.times_s[0]), float(waypoints.times_s[-1])

@@ -6,10 +6,14 @@ import numpy as np
 import pinocchio as pin
 
 from quadlab.geometry.rotations import Array, skew
-from quadlab.robots.kinematics import BASE_ANGULAR, BASE_LINEAR, JOINTS, VELOCITY_SIZE, Kinematics
+from quadlab.robots.kinematics import BASE, BASE_ANGULAR, BASE_LINEAR, JOINTS, VELOCITY_SIZE, Kinematics
 from quadlab.robots.legs import LEG_COUNT, joints_of
 from quadlab.robots.pinocchio_model import PinocchioModel
 from quadlab.robots.state import RobotState
+
+_LEGS = np.arange(LEG_COUNT)[:, None]
+_JOINTS_OF_LEGS = np.array([np.arange(VELOCITY_SIZE)[JOINTS][joints_of(leg)] for leg in range(LEG_COUNT)])
+"""Indices of the joints of each leg in the generalised velocity, (4, 3)."""
 
 
 class KinematicsSolver:
@@ -27,6 +31,7 @@ class KinematicsSolver:
         self._joint_damping = self._model.damping[indexed.velocity_indices].copy()
         self._mass_matrix_order = np.ix_(indexed.order, indexed.order)
         self._zero_acceleration = np.zeros(self._model.nv)
+        self._foot_radius = foot_radius
         self._to_contact = np.array([0.0, 0.0, -foot_radius])
         self._skew_to_contact = skew(self._to_contact)
 
@@ -79,22 +84,25 @@ class KinematicsSolver:
         """Terms of the sphere centres and of the contact points, at r = (0, 0, -radius) from them in world axes."""
         model, data, axes = self._model, self._data, pin.LOCAL_WORLD_ALIGNED
         centers = np.empty((LEG_COUNT, 3))
-        jacobians = np.empty((LEG_COUNT, 6, VELOCITY_SIZE))
+        raw_jacobians = np.empty((LEG_COUNT, 6, VELOCITY_SIZE))
         accelerations = np.empty((LEG_COUNT, 6))
         for leg, frame in enumerate(self._indexed.foot_frames):
             centers[leg] = data.oMf[frame].translation
-            jacobians[leg] = pin.getFrameJacobian(model, data, frame, axes)[:, self._indexed.order]
+            raw_jacobians[leg] = pin.getFrameJacobian(model, data, frame, axes)
             accelerations[leg] = pin.getFrameClassicalAcceleration(model, data, frame, axes).vector
+        jacobians = raw_jacobians.take(self._indexed.order, axis=2)
         linear, angular = jacobians[:, :3], jacobians[:, 3:]
-        leg_axes = [angular[leg][:, JOINTS][:, joints_of(leg)] for leg in range(LEG_COUNT)]
+        contact_jacobians = linear.copy()  # J - skew(r) J_angular, entry by entry
+        contact_jacobians[:, 0] -= self._foot_radius * angular[:, 1]
+        contact_jacobians[:, 1] += self._foot_radius * angular[:, 0]
         return {
-            "leg_joint_axes": np.stack(leg_axes),
+            "leg_joint_axes": angular[_LEGS, :, _JOINTS_OF_LEGS].transpose(0, 2, 1),
             "foot_centers": centers,
             "foot_positions": centers + self._to_contact,
             "foot_velocities": linear @ velocity,
             "foot_jacobians": linear,
             "foot_bias": accelerations[:, :3],
-            "contact_jacobians": linear - self._skew_to_contact @ angular,
+            "contact_jacobians": contact_jacobians,
             "contact_bias": accelerations[:, :3] - accelerations[:, 3:] @ self._skew_to_contact.T,
         }
 
@@ -104,6 +112,7 @@ def _base_terms(rotation: Array, velocity: Array) -> dict[str, Array]:
     jacobian = np.zeros((6, VELOCITY_SIZE))
     jacobian[:3, BASE_LINEAR] = rotation
     jacobian[3:, BASE_ANGULAR] = rotation
+    vx, vy, vz, wx, wy, wz = velocity[BASE].tolist()
     bias = np.zeros(6)
-    bias[:3] = rotation @ (skew(velocity[BASE_ANGULAR]) @ velocity[BASE_LINEAR])
+    bias[:3] = rotation @ np.array([wy * vz - wz * vy, wz * vx - wx * vz, wx * vy - wy * vx])
     return {"base_jacobian": jacobian, "base_bias": bias}

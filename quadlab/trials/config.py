@@ -17,6 +17,7 @@ from quadlab.gaits.gait import GaitConfig, stride_counts
 from quadlab.planners.command import CommandConfig
 from quadlab.planners.kinematic_sqp import planner as _kinematic_sqp  # noqa: F401
 from quadlab.planners.vertex_zmp import planner as _vertex_zmp  # noqa: F401
+from quadlab.planners.zmp_spline import planner as _zmp_spline  # noqa: F401
 from quadlab.robots.config import RobotConfig
 from quadlab.robots.description import load_urdf_text
 from quadlab.simulation.push import BASE_BODY
@@ -27,6 +28,7 @@ from quadlab.trials.failure import FailureConfig
 from quadlab.trials.parts import PartOf
 from quadlab.trials.problems import suggestion
 from quadlab.trials.recording.config import LogConfig
+from quadlab.trials.replanning import ReplanningConfig
 
 Tag = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
 """A folder name: letters, digits, dot, dash, underscore."""
@@ -60,6 +62,7 @@ class TrialConfig(StrictModel):
 
     Attributes:
         robot, gait, command, scenario, simulation, log, failure: see their classes.
+        replanning: whether the motion is planned again on the way.
         planner, controller, estimator: the ``Config`` of the part that is registered under their ``kind``.
         duration_s: length of the motion, standing at both ends included, in [s].
         seed: of everything random.
@@ -74,6 +77,7 @@ class TrialConfig(StrictModel):
     estimator: Annotated[PartConfig, PartOf("estimator")]
     scenario: ScenarioConfig
     simulation: SimulationConfig
+    replanning: ReplanningConfig
     failure: FailureConfig
     log: LogConfig
     duration_s: Positive

@@ -1,12 +1,14 @@
 """The Hydra entry point: overrides to one trial or a sweep, mistakes to one line, outcomes to exit codes.
 
-Exit codes: 0 the trial ran, whatever its outcome; 1 the program failed; 2 the configuration is wrong.
+Exit codes: 0 the trial ran (or the planner answered), whatever the outcome; 1 the program failed; 2 the configuration
+is wrong.
 Everything heavy is imported inside the job, so that ``--help`` and ``--cfg job`` answer at once.
 """
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
 import hydra
 from hydra.core.hydra_config import HydraConfig
@@ -15,6 +17,7 @@ from omegaconf import DictConfig
 
 from quadlab.errors import QuadlabError
 from quadlab.paths import CONF_DIR
+from quadlab.planners.plan import MotionPlan
 from quadlab.trials.override_problems import COMPOSITION_ERRORS, UNTYPED_COMPOSITION_ERRORS, composition_problem
 
 EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
@@ -28,11 +31,35 @@ class JobFailedError(Exception):
         self.exit_code = exit_code
 
 
+DrawPlan = Callable[[MotionPlan, Path], object]
+"""Leaves figures of a plan in a folder."""
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what the arguments say and return the exit code.
 
     Args:
         arguments: overrides and Hydra's flags; those of the process by default.
+    """
+    return run_jobs(arguments, run_document)
+
+
+def plan_main(arguments: Sequence[str] | None, draw: DrawPlan) -> int:
+    """Plan what the arguments say, without a trial, and return the exit code.
+
+    Args:
+        arguments: overrides and Hydra's flags; those of the process by default.
+        draw: called with every plan found.
+    """
+    return run_jobs(arguments, lambda document: plan_document(document, draw))
+
+
+def run_jobs(arguments: Sequence[str] | None, job: Callable[[DictConfig], int]) -> int:
+    """Compose the configuration of each job that the arguments ask for, run it and return the worst exit code.
+
+    Args:
+        arguments: overrides and Hydra's flags; those of the process by default.
+        job: takes a composed configuration, not validated, and returns its exit code.
     """
     if arguments is not None:
         sys.argv = [sys.argv[0], *arguments]
@@ -42,7 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     def task(document: DictConfig) -> None:
         """Run one job; a sweep learns of a failure by an exception."""
         codes.append(EXIT_FAILED)
-        codes[-1] = run_document(document)
+        codes[-1] = job(document)
         if codes[-1] != EXIT_OK and HydraConfig.get().mode == RunMode.MULTIRUN:
             raise JobFailedError(codes[-1])
 
@@ -80,6 +107,23 @@ def run_document(document: DictConfig) -> int:
         _complain(outcome.failure)
         return EXIT_FAILED
     sys.stdout.write(job_report(outcome))
+    return EXIT_OK
+
+
+def plan_document(document: DictConfig, draw: DrawPlan) -> int:
+    """Validate one composed configuration, plan, draw the plan, print what came of it and return the exit code."""
+    from quadlab.trials.compose import split_document  # noqa: PLC0415
+    from quadlab.trials.plan_job import run_plan_job  # noqa: PLC0415
+    from quadlab.trials.plan_report import plan_report  # noqa: PLC0415
+
+    try:
+        job = run_plan_job(*split_document(document))
+        if job.outcome.plan is not None:
+            draw(job.outcome.plan, job.directory)
+    except QuadlabError as error:
+        _complain(str(error))
+        return EXIT_USAGE
+    sys.stdout.write(plan_report(job))
     return EXIT_OK
 
 

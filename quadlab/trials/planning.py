@@ -52,8 +52,14 @@ def planning_problem(config: TrialConfig, robot: RobotModel, state: RobotState) 
     )
 
 
-def plan_motion(config: TrialConfig, robot: RobotModel, state: RobotState) -> PlanningOutcome:
-    """Return the outcome of the configured planner for the trial that starts in ``state``."""
+def build_planner(config: TrialConfig) -> Planner:
+    """Return the configured planner."""
     planner_type: Any = part_of("planner", config.planner)
     planner: Planner = planner_type(config.planner)
+    return planner
+
+
+def plan_motion(config: TrialConfig, robot: RobotModel, state: RobotState) -> PlanningOutcome:
+    """Return the outcome of the configured planner for the trial that starts in ``state``."""
+    planner = build_planner(config)
     return planner.solve(planner.build(planning_problem(config, robot, state)))

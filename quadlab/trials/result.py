@@ -52,6 +52,8 @@ class TrialResult(StrictModel):
         cost_of_transport: mechanical energy over weight times distance.
         planning_build_ms, planning_solve_ms: wall time in [ms].
         planning_iterations: of the planner's solver.
+        replannings, replanning_failures: how often a plan was asked for on the way, and not found; null if not at all.
+        replanning_median_ms: wall time of building and solving of the plans found on the way, in [ms].
         control_tick_median_us, control_tick_p99_us: computing time of a control tick in [us].
         control_fallbacks: ticks in which the controller's solver failed and the fallback was used.
         com_error_believed_rms_mm, com_error_believed_max_mm: the CoM error that the controller believed in, in [mm];
@@ -93,6 +95,9 @@ class TrialResult(StrictModel):
     planning_build_ms: NonNegative | None = None
     planning_solve_ms: NonNegative | None = None
     planning_iterations: int | None = None
+    replannings: int | None = None
+    replanning_failures: int | None = None
+    replanning_median_ms: NonNegative | None = None
     control_tick_median_us: NonNegative | None = None
     control_tick_p99_us: NonNegative | None = None
     control_fallbacks: int | None = None

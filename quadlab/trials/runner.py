@@ -2,7 +2,7 @@
 
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,11 +22,12 @@ from quadlab.trials.identity import trial_id
 from quadlab.trials.manifest import MANIFEST_FILE
 from quadlab.trials.metrics import TrialMetrics
 from quadlab.trials.observer import Observer, as_it_happened
-from quadlab.trials.planning import plan_motion
+from quadlab.trials.planning import build_planner, planning_problem
 from quadlab.trials.progress import TrialProgress
 from quadlab.trials.recording.record import BodyPoses, TickRecord
 from quadlab.trials.recording.recorder import Attachments, EventLevel, TrialRecorder
 from quadlab.trials.recording.topics import CONFIG_ATTACHMENT, LOG_FILE, URDF_ATTACHMENT
+from quadlab.trials.replanning import Replanner
 from quadlab.trials.result import TrialResult, TrialStatus
 
 
@@ -52,11 +53,14 @@ def run_trial(config: TrialConfig, directory: Path, progress: TrialProgress) -> 
     robot = load_robot(config.robot)
     simulator = Simulator(robot, config.scenario, config.simulation, config.seed)
     observer = Observer(config, robot, simulator)
-    outcome = plan_motion(config, robot, observer.observe(simulator.reset()).state)
+    planner = build_planner(config)
+    problem = planning_problem(config, robot, observer.observe(simulator.reset()).state)
+    outcome = planner.solve(planner.build(problem))
     if outcome.plan is None:
         return _result(config, Ending(TrialStatus.PLANNING_FAILED, f"{outcome.status}: {outcome.reason}"), {})
     controller = build_controller(config.controller, robot)
-    loop = ClosedLoop(config, robot, simulator, observer, controller, outcome.plan)
+    replanner = Replanner(config.replanning, robot, planner, problem)
+    loop = ClosedLoop(config, robot, simulator, observer, controller, outcome.plan, replanner)
     progress.start(f"{robot.name} {config.gait.name}", config.duration_s)
     with _recorder(config, directory, robot, simulator, controller, outcome.plan) as recorder:
         ending = loop.run(recorder, progress)
@@ -67,7 +71,7 @@ def run_trial(config: TrialConfig, directory: Path, progress: TrialProgress) -> 
         "planning_solve_ms": report.solve_ms,
         "planning_iterations": report.iterations,
     }
-    metrics = loop.metrics.summary() | loop.estimation.summary()
+    metrics = loop.metrics.summary() | loop.estimation.summary() | replanner.summary()
     return _result(config, ending, planning | metrics | {"real_time_factor": loop.real_time_factor})
 
 
@@ -82,6 +86,7 @@ class ClosedLoop:
         observer: Observer,
         controller: Controller,
         plan: MotionPlan,
+        replanner: Replanner,
     ) -> None:
         self.config = config
         self.plan = plan
@@ -92,6 +97,7 @@ class ClosedLoop:
         self._simulator = simulator
         self._observer = observer
         self._controller = controller
+        self._replanner = replanner
         self._standing_height = float(robot.nominal_state().position_base_in_world[2])
 
     def run(self, recorder: TrialRecorder, progress: TrialProgress) -> Ending:
@@ -116,7 +122,10 @@ class ClosedLoop:
         if not state.is_finite():
             return Ending(TrialStatus.DIVERGED, f"the state is not finite at {state.time_s:.3f} s")
         estimate = self._observer.observe(state)
+        replanned = self._replanner.update(self._controller, estimate.state)
         command, telemetry = self._controller.tick(estimate.state)
+        if replanned:
+            telemetry = replace(telemetry, events=(replanned, *telemetry.events))
         poses = BodyPoses(*self._simulator.body_poses())
         pushes = tuple(self._simulator.active_pushes())
         self._simulator.advance(command, self._controller.period_s)

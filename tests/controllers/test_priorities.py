@@ -1,5 +1,6 @@
 """Priorities are data: what stands higher in the YAML is kept, what stands lower gives way."""
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -125,3 +126,14 @@ def test_level_names_must_differ() -> None:
 def test_values_out_of_range_missing_or_unknown_are_refused(change: dict[str, Any]) -> None:
     with pytest.raises(ValidationError):
         LevelConfig.model_validate({"name": "level", "tasks": [change]})
+
+
+def test_state_that_is_not_finite_is_counted_and_not_obeyed(robot: RobotModel) -> None:
+    controller = build_controller(controller_config(), robot)
+    state = with_loads(robot, robot.nominal_state())
+    controller.start(uniform_plan(robot, standing_schedule()), state)
+    solved, _ = controller.tick(state)
+    broken = replace(state, joint_velocities=np.full(12, np.nan))
+    kept, telemetry = controller.tick(broken)
+    np.testing.assert_array_equal(kept.torques, solved.torques)
+    assert telemetry.fallbacks == 1

@@ -5,7 +5,7 @@ import pytest
 from controller_cases import STANCES, any_state
 
 from quadlab.controllers.reduced_dynamics import reduce_dynamics
-from quadlab.controllers.task_stack import in_torques
+from quadlab.controllers.task_stack import in_decision_variables
 from quadlab.controllers.tasks.task import TaskRows, Variable
 from quadlab.robots.model import RobotModel
 
@@ -52,7 +52,7 @@ def test_rows_mean_the_same_when_written_in_torques(robot: RobotModel, variable:
         Variable.TORQUE: torques,
     }[variable]
     rows = TaskRows(variable, generator.normal(size=(5, len(block))), np.full(5, -np.inf), generator.normal(size=5))
-    matrix, lower, upper = in_torques([rows], dynamics)
+    matrix, lower, upper = in_decision_variables([rows], dynamics)
     np.testing.assert_allclose(upper - matrix @ torques, rows.upper - rows.matrix @ block, rtol=1e-9, atol=1e-8)
     assert np.all(np.isneginf(lower))
 

@@ -41,12 +41,17 @@ def test_schedule_of_every_gait_file_fills_the_trial(path: Path, duration_s: flo
     assert (schedule.contacts[1:] != schedule.contacts[:-1]).any(axis=1).all()
 
 
+LAME = {"three_legs": [leg_index("LF")]}  # carried from the first stride to the last
+
+
 @pytest.mark.parametrize("path", sorted(CONF.glob("*.yaml")), ids=lambda path: path.stem)
 def test_gait_ends_standing_and_every_leg_swings_equally_often(path: Path) -> None:
     schedule = contact_schedule(gait(path.stem), 20.0)
     assert schedule.contacts[0].all()
     assert schedule.contacts[-1].all()
-    assert len({len(swings) for swings in schedule.swings}) == 1
+    lame = LAME.get(path.stem, [])
+    assert len({len(swings) for leg, swings in enumerate(schedule.swings) if leg not in lame}) == 1
+    assert all(len(schedule.swings[leg]) == 1 for leg in lame)
 
 
 def test_trot_swings_diagonal_legs_together_and_alternates() -> None:

@@ -114,3 +114,12 @@ def stack(levels: Sequence[Level]) -> StackedLevels:
         upper=np.concatenate([level.upper for level in levels]),
         breaks=np.cumsum([0, *(len(level.lower) for level in levels)], dtype=np.int64),
     )
+
+
+def unstack(levels: StackedLevels, names: Sequence[str]) -> list[Level]:
+    """Return the levels of a stacked form under ``names``, highest priority first."""
+    ends = zip(names, levels.breaks[:-1], levels.breaks[1:], strict=True)
+    return [
+        Level(name, levels.matrix[first:last], levels.lower[first:last], levels.upper[first:last])
+        for name, first, last in ends
+    ]

@@ -7,7 +7,6 @@ import numpy as np
 from quadlab.configuration import NonNegative, Positive, StrictModel, register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.task import TaskRows, Variable
-from quadlab.geometry.rotations import Array
 from quadlab.robots.kinematics import Kinematics
 
 
@@ -15,7 +14,7 @@ from quadlab.robots.kinematics import Kinematics
 class FrictionCone:
     """|h^T f| <= mu n^T f, |l^T f| <= mu n^T f and f_min <= n^T f <= f_max for each standing leg.
 
-    Eq. 29 as printed negates two of its rows; here both signs of both tangents are bounded.
+    Eq. 29 as printed negates two of its rows; here both signs of both tangents h and l are bounded.
     """
 
     class Config(StrictModel):
@@ -32,22 +31,19 @@ class FrictionCone:
 
     def __init__(self, config: Config) -> None:
         self.config = config
+        mu = config.friction
+        sides = [[1.0, 0.0, -mu], [-1.0, 0.0, -mu], [0.0, 1.0, -mu], [0.0, -1.0, -mu]]
+        self._pyramid = np.array([*sides, [0.0, 0.0, 1.0]])
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return five rows in forces for each standing leg."""
-        legs = reference.stance_legs
-        pyramid = self._pyramid(reference.ground_axes)
-        matrix = np.asarray(np.kron(np.eye(len(legs)), pyramid), dtype=np.float64)
-        limits = reference.normal_force_limits[legs]
-        floor = self.config.minimum_normal_force_share * reference.weight
-        lower = np.full((len(legs), len(pyramid)), -np.inf)
-        upper = np.zeros((len(legs), len(pyramid)))
-        lower[:, -1], upper[:, -1] = np.minimum(floor, limits), limits
-        return TaskRows(Variable.FORCE, matrix, lower.ravel(), upper.ravel())
-
-    def _pyramid(self, ground_axes: Array) -> Array:
-        heading, lateral, normal = ground_axes.T
-        mu = self.config.friction
-        return np.stack(
-            [heading - mu * normal, -heading - mu * normal, lateral - mu * normal, -lateral - mu * normal, normal]
-        )
+        limits = reference.normal_force_limits[reference.stance]
+        count, size = len(limits), len(self._pyramid)
+        matrix = np.zeros((count, size, count, 3))
+        pyramid = self._pyramid @ reference.ground_axes.T
+        for leg in range(count):
+            matrix[leg, :, leg] = pyramid
+        lower, upper = np.full((count, size), -np.inf), np.zeros((count, size))
+        lower[:, -1] = np.minimum(self.config.minimum_normal_force_share * reference.weight, limits)
+        upper[:, -1] = limits
+        return TaskRows(Variable.FORCE, matrix.reshape(size * count, 3 * count), lower.ravel(), upper.ravel())

@@ -23,12 +23,12 @@ class HeightOverFootprintLimit:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return one row in accelerations; none if no foot stands."""
-        footprint = kinematics.foot_positions[reference.stance, 2]
-        row = slice(2, 3 if len(footprint) else 2)
+        feet = kinematics.foot_positions[reference.stance, 2]
+        row = slice(2, 3) if len(feet) else slice(0, 0)
         return position_limit(
             kinematics.base_jacobian[row],
             kinematics.base_bias[row],
-            kinematics.base_position[row] - footprint.sum() / max(len(footprint), 1),
+            kinematics.base_position[row] - feet.sum() / max(len(feet), 1),
             kinematics.base_linear_velocity[row],
             self.config.bounds(reference.standing_height),
             self.config.look_ahead_s,

@@ -6,20 +6,15 @@ from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.gains import TrackingGains
 from quadlab.controllers.tasks.task import TaskRows, Variable, equation
-from quadlab.geometry.rotations import rotation_log, rotation_z, yaw_of
+from quadlab.geometry.rotations import Array, rotation_2d, rotation_log, yaw_of
 from quadlab.robots.kinematics import Kinematics
 
 
-def _rotational_rows(gains: TrackingGains, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
-    """Return roll, pitch and yaw rows in the heading frame; the error is R_ref boxminus R."""
+def _angular_target(gains: TrackingGains, kinematics: Kinematics, reference: ControlReference) -> Array:
+    """Return what J_omega u_dot shall be in world axes, (3,) in [rad/s^2]; the error is R_ref boxminus R."""
     error = rotation_log(reference.base_rotation @ kinematics.base_rotation.T)
     target = gains.acceleration(0.0, reference.base_angular_velocity - kinematics.base_angular_velocity, error)
-    world_to_heading = rotation_z(-yaw_of(kinematics.base_rotation))
-    return equation(
-        Variable.ACCELERATION,
-        world_to_heading @ kinematics.base_jacobian[3:],
-        world_to_heading @ (target - kinematics.base_bias[3:]),
-    )
+    return target - kinematics.base_bias[3:]
 
 
 @register("task", "base_yaw")
@@ -36,8 +31,8 @@ class BaseYawTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return one row in accelerations."""
-        rows = _rotational_rows(self.config, kinematics, reference)
-        return equation(rows.variable, rows.matrix[2:], rows.upper[2:])
+        target = _angular_target(self.config, kinematics, reference)
+        return equation(Variable.ACCELERATION, kinematics.base_jacobian[5:], target[2:])
 
 
 @register("task", "base_roll_pitch")
@@ -54,5 +49,6 @@ class BaseRollPitchTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
-        rows = _rotational_rows(self.config, kinematics, reference)
-        return equation(rows.variable, rows.matrix[:2], rows.upper[:2])
+        target = _angular_target(self.config, kinematics, reference)
+        to_heading = rotation_2d(-yaw_of(kinematics.base_rotation))
+        return equation(Variable.ACCELERATION, to_heading @ kinematics.base_jacobian[3:5], to_heading @ target[:2])

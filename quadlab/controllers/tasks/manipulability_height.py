@@ -34,11 +34,11 @@ def knee_gradient(jacobian: Array, axes: Array) -> float:
 
 @register("task", "manipulability_height")
 class ManipulabilityHeightTask:
-    """z_ddot = k_0 sum_k dm_k/dq_KFE dq_KFE/dz - k_d z_dot.
+    """z_ddot = k_0 sum_k s_k dm_k/dq_KFE - k_d z_dot, with s_k = +-1.
 
     Eq. (23) adds up the gradients by the knee angles as if every knee lifted the base when its angle grows; here each
-    is taken along the direction in which its knee raises the hip, which is the same for robots whose knees point
-    that way and right for the others.
+    is taken in the direction s_k in which its knee raises the hip: the same for robots whose knees point that way, and
+    right for the others. All legs count alike, w_k = 1.
     """
 
     class Config(StrictModel):

@@ -23,11 +23,11 @@ class SwingFeetTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return three rows in accelerations for each leg in the air."""
-        legs = reference.swing_legs
-        target = self.config.acceleration(
-            reference.foot_accelerations[legs],
-            reference.foot_velocities[legs] - kinematics.foot_velocities[legs],
-            reference.foot_positions[legs] - kinematics.foot_positions[legs],
+        target = self.config.acceleration(  # of all feet; standing ones are NaN and left out
+            reference.foot_accelerations,
+            reference.foot_velocities - kinematics.foot_velocities,
+            reference.foot_positions - kinematics.foot_positions,
         )
-        matrix = kinematics.foot_jacobians[legs].reshape(3 * len(legs), VELOCITY_SIZE)
-        return equation(Variable.ACCELERATION, matrix, (target - kinematics.foot_bias[legs]).ravel())
+        swing = ~reference.stance
+        matrix = kinematics.foot_jacobians[swing].reshape(-1, VELOCITY_SIZE)
+        return equation(Variable.ACCELERATION, matrix, (target - kinematics.foot_bias)[swing].ravel())

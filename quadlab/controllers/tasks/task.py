@@ -1,8 +1,7 @@
 """A task: linear rows in accelerations, torques or contact forces (Bellicoso 2016, Eq. 8)."""
 
-from dataclasses import dataclass
 from enum import StrEnum
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from quadlab.controllers.reference import ControlReference
 from quadlab.geometry.rotations import Array
@@ -20,9 +19,10 @@ class Variable(StrEnum):
     """Contact forces lambda of the standing legs in world axes, (3 n_stance,) in [N]."""
 
 
-@dataclass(frozen=True)
-class TaskRows:
+class TaskRows(NamedTuple):
     """Rows lower <= matrix x <= upper of one variable block; equal bounds make an equation.
+
+    A named tuple, since it is made for every task in every tick and takes a third of the time of a frozen dataclass.
 
     Attributes:
         variable: the block x.

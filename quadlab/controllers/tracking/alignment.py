@@ -33,7 +33,11 @@ class PlanarPose:
 
     def origin(self) -> Array:
         """Return x, y in [m] and yaw in [rad] of the plan frame in the world, (3,)."""
-        return np.array([*self.position(np.zeros(2)), self.yaw])
+        return self.pose(np.zeros(3))
+
+    def pose(self, pose_in_plan: Array) -> Array:
+        """Return x, y in [m] and yaw in [rad] in the world of a pose in the plan, both (3,)."""
+        return np.array([*self.position(pose_in_plan[:2]), pose_in_plan[2] + self.yaw])
 
 
 def identity_alignment() -> PlanarPose:
@@ -89,16 +93,18 @@ class SmoothedAlignment:
         decay = math.exp(-period_s / self.time_constant_s)
         self._yaw_offset *= decay
         self._offset = self._offset * decay
-        return self._current()
+        return self.current
 
     def _absorb(self, raw: PlanarPose, torso_in_plan: Array) -> None:
-        before = self._current()
+        before = self.current
         self._raw = raw
         self._yaw_offset = wrap_angle(before.yaw - raw.yaw)
         self._offset = np.zeros(2)
-        self._offset = before.position(torso_in_plan) - self._current().position(torso_in_plan)
+        self._offset = before.position(torso_in_plan) - self.current.position(torso_in_plan)
 
-    def _current(self) -> PlanarPose:
+    @property
+    def current(self) -> PlanarPose:
+        """The alignment as it was returned last."""
         return PlanarPose(
             self._raw.point_in_plan, self._raw.point_in_world + self._offset, self._raw.yaw + self._yaw_offset
         )

@@ -95,6 +95,30 @@ class ContactMachine:
                 self._search(leg, plan_time_s, period_s, completed, swing, feet[leg])
         return self.events
 
+    def follow(self, schedule: ContactSchedule, elapsed_s: float, feet: Array) -> None:
+        """Go on with a new schedule; its time 0 is the time ``elapsed_s`` of the old one in [s].
+
+        Legs keep their modes; each has the first foothold of the new plan under it, or has left it. Stance points are
+        measured anew, since a round foot has rolled on from where it touched down; those of searching legs keep their
+        height.
+
+        Args:
+            schedule: in which a leg in the air has the rest of its swing first.
+            elapsed_s: plan time now in [s].
+            feet: contact points now, (4, 3) in [m].
+        """
+        self.schedule = schedule
+        for number, leg in enumerate(self.legs):
+            leg.foothold = 0
+            leg.touch_down_s -= elapsed_s
+            leg.lift_off_s -= elapsed_s
+            leg.touch_down_due_s -= elapsed_s
+            leg.completes_swing = False
+            if leg.mode is LegMode.STANCE:
+                leg.stance_point = feet[number].copy()
+            elif leg.mode is LegMode.SEARCH:
+                leg.stance_point = np.array([*feet[number, :2], leg.stance_point[2]])
+
     def _others_standing(self, leg: int) -> int:
         return sum(other.mode is LegMode.STANCE for i, other in enumerate(self.legs) if i != leg)
 

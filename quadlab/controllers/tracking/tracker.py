@@ -1,7 +1,7 @@
 """From plan and measured state to the reference of one tick."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from quadlab.controllers.tracking.config import Alignment, TrackingConfig
 from quadlab.controllers.tracking.contact_machine import start_contacts
 from quadlab.controllers.tracking.feet import FootPlanner
 from quadlab.controllers.tracking.force_ramp import normal_force_limit, ramp_duration
+from quadlab.controllers.tracking.handover import PlanProgress, feet_in_progress
 from quadlab.controllers.tracking.torso import ground_axes, torso_rotation
 from quadlab.estimation.terrain_plane import TerrainPlane, blend, fit_plane
 from quadlab.geometry.rotations import Array, rotation_2d, yaw_of
@@ -35,8 +36,9 @@ class TrackedTick:
     Attributes:
         reference: what the tasks shall follow.
         sample: the plan at this tick, in plan frame.
-        plan_time_s: where the plan was looked up in [s].
+        plan_time_s: where the plan was looked up in [s]; goes on if the plan is replaced.
         torso_alignment: of the torso's reference.
+        plan_pose_in_world: x, y in [m] and yaw in [rad] of the frame of the first plan, (3,).
         terrain: plane under the robot, written about the CoM.
         modes: of the legs.
         events: one line each.
@@ -46,6 +48,7 @@ class TrackedTick:
     sample: PlanSample
     plan_time_s: float
     torso_alignment: PlanarPose
+    plan_pose_in_world: Array
     terrain: TerrainPlane
     modes: tuple[LegMode, ...]
     events: tuple[str, ...]
@@ -69,6 +72,8 @@ class MotionTracker:
         self._alignment = SmoothedAlignment(config.alignment.time_constant_s, identity_alignment())
         self._terrain = fit_plane(start.foot_positions, start.com_position[:2])
         self._frozen_s = 0.0
+        self._began_s = 0.0
+        self._first_frame = np.zeros(3)
         self._feet = FootPlanner(
             config.swing,
             self._base_height,
@@ -76,6 +81,28 @@ class MotionTracker:
             robot.nominal_feet_in_com,
             plan.footholds,
         )
+
+    def progress(self, time_s: float, kinematics: Kinematics) -> PlanProgress:
+        """Return how far the plan has been followed at ``time_s`` since its start, in [s]."""
+        plan_time_s = time_s - self._frozen_s
+        feet, standing, regular = feet_in_progress(self._contacts, plan_time_s, kinematics.foot_positions)
+        pose = self._alignment.current.pose(self._first_frame)
+        return PlanProgress(self._began_s + plan_time_s, pose, feet, standing, regular)
+
+    def replace_plan(self, plan: MotionPlan, time_s: float, kinematics: Kinematics) -> None:
+        """Follow another plan from now on, which was made from the ``progress`` of this moment.
+
+        Its frame is the world as it is now and its time 0 is ``time_s`` since the start of the old plan, in [s]:
+        times of later updates count from now. Contacts, terrain and force ramps go on.
+        """
+        elapsed_s = time_s - self._frozen_s
+        self._first_frame = self._alignment.current.pose(self._first_frame)
+        self._began_s += elapsed_s
+        self._frozen_s = 0.0
+        self._contacts.follow(plan.schedule, elapsed_s, kinematics.foot_positions)
+        self._alignment = SmoothedAlignment(self.config.alignment.time_constant_s, identity_alignment())
+        self._feet = replace(self._feet, footholds=plan.footholds)
+        self.plan = plan
 
     def update(self, time_s: float, kinematics: Kinematics, normal_forces: Array) -> TrackedTick:
         """Return references for this tick.
@@ -96,8 +123,9 @@ class MotionTracker:
         return TrackedTick(
             reference=self._reference(plan_time_s, sample, torso, kinematics, 0.0 if frozen else 1.0),
             sample=sample,
-            plan_time_s=plan_time_s,
+            plan_time_s=self._began_s + plan_time_s,
             torso_alignment=torso,
+            plan_pose_in_world=torso.pose(self._first_frame),
             terrain=self._terrain,
             modes=tuple(leg.mode for leg in self._contacts.legs),
             events=tuple(events),

@@ -43,6 +43,7 @@ class SqpConfig(StrictModel):
 
     Attributes:
         max_iterations: limit; more is reported as solver_limit.
+        max_wall_time_s: limit, looked at between iterations, in [s].
         convergence: the objective has converged when neither the model nor the step changes it by more than this share.
         damping: added to the diagonal of the Gauss-Newton Hessian.
         armijo: smallest share of the predicted decrease that a step must reach.
@@ -53,6 +54,7 @@ class SqpConfig(StrictModel):
     """
 
     max_iterations: Annotated[int, Field(ge=1)]
+    max_wall_time_s: Positive
     convergence: Positive
     damping: Positive
     armijo: Annotated[float, Field(gt=0.0, lt=0.5)]

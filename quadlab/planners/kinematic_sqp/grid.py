@@ -105,7 +105,7 @@ def sample_grid(cycles: Sequence[Cycle], heading: float) -> SampleGrid:
     times, spans = [0.0], []
     for cycle in cycles:
         first, samples = len(times) - 1, len(cycle.contacts)
-        times += [times[first] + cycle.sample_period_s * (number + 1) for number in range(samples)]
+        times += [times[first] + float(elapsed) for elapsed in np.cumsum(cycle.periods_s)]
         spans.append(CycleSpan(cycle, first, first + samples, heading))
         heading += float(cycle.increment[2])
     contacts = np.concatenate([cycle.contacts for cycle in cycles])

@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import linprog
+from scipy.sparse import vstack
 
 from quadlab.configuration import register
 from quadlab.gaits.schedule import ContactSchedule
-from quadlab.geometry.rotations import Array
 from quadlab.planners.checker import CheckerConfig, check_plan
 from quadlab.planners.kinematic_sqp.config import KinematicSqpConfig
 from quadlab.planners.kinematic_sqp.program import KinematicProgram
@@ -68,11 +68,13 @@ class KinematicSqpPlanner:
     def solve(self, transcription: KinematicSqpBuild) -> PlanningOutcome:
         """Solve, compare residuals with their tolerance, check the plan independently, return the outcome."""
         problem, program, config = transcription.problem, transcription.program, self.config
+        contradiction = _contradiction(program, config.constraint_tolerance)
+        if contradiction:
+            return PlanningOutcome(PlanningStatus.INFEASIBLE, contradiction, None)
         minimum = minimise(program, config.sqp)
         if not minimum.converged:
-            infeasible = minimum.qp_failed and _contradictory(program)
-            status = PlanningStatus.INFEASIBLE if infeasible else PlanningStatus.SOLVER_LIMIT
-            return PlanningOutcome(status, _failure(program, minimum, config.constraint_tolerance), None)
+            reason = _failure(program, minimum, config.constraint_tolerance)
+            return PlanningOutcome(PlanningStatus.SOLVER_LIMIT, reason, None)
         residuals = program.violations(minimum.p)
         violated = _above(residuals, dict.fromkeys(residuals, config.constraint_tolerance))
         misses = program.consistency(minimum.p)
@@ -108,13 +110,24 @@ def _failure(program: KinematicProgram, minimum: Minimum, tolerance: float) -> s
     return f"{minimum.reason}; constraint sets violated: {sets}"
 
 
-def _contradictory(program: KinematicProgram) -> bool:
-    """Return whether no motion satisfies all constraints, which are linear: a linear program decides."""
+def _contradiction(program: KinematicProgram, tolerance: float) -> str:
+    """Return why no motion satisfies the constraints, or nothing if there is one.
+
+    All constraints are linear: either the first guess satisfies them, or a linear program decides.
+    """
+    guess = program.elimination.expand(program.elimination.restrict(program.guess))
+    violations = program.violations(guess)
+    missed = _above(violations, dict.fromkeys(violations, tolerance))
+    if not missed:
+        return ""
     rows = inequality_rows(program.inequalities, program.elimination)
-    size: Array = np.zeros(rows.matrix.shape[1])
-    matrix = np.vstack([rows.matrix.toarray(), -rows.matrix.toarray()])
-    result = linprog(size, A_ub=matrix, b_ub=np.concatenate([rows.upper, -rows.lower]), bounds=(None, None))
-    return int(result.status) == _INFEASIBLE
+    result = linprog(
+        np.zeros(rows.matrix.shape[1]),
+        A_ub=vstack([rows.matrix, -rows.matrix], format="csr"),
+        b_ub=np.concatenate([rows.upper, -rows.lower]),
+        bounds=(None, None),
+    )
+    return f"no motion satisfies the constraints; at the start pose {missed}" if result.status == _INFEASIBLE else ""
 
 
 def _report(build: KinematicSqpBuild, minimum: Minimum, residuals: dict[str, float]) -> PlanReport:

@@ -40,7 +40,6 @@ class Minimum:
         steps: length of every step as a share of the full one.
         converged: whether the objective stopped changing.
         reason: one line.
-        qp_failed: whether it ended because a quadratic program was not solved.
         solve_ms: wall time in [ms].
     """
 
@@ -49,7 +48,6 @@ class Minimum:
     steps: tuple[float, ...]
     converged: bool
     reason: str
-    qp_failed: bool
     solve_ms: float
 
 
@@ -75,23 +73,24 @@ def minimise(program: KinematicProgram, config: SqpConfig) -> Minimum:
         change = _change(iterates[-1], following, step.step, model)
         iterates.append(following)
         steps.append(share)
-        reason = _end(len(steps), change, config)
+        reason = _end(len(steps), change, time.perf_counter() - begin, config)
     return Minimum(
         p=program.elimination.expand(iterates[-1].y),
         history=tuple(iterate.costs for iterate in iterates),
         steps=tuple(steps),
         converged=change <= config.convergence,
         reason=reason,
-        qp_failed=len(steps) < config.max_iterations and not change <= config.convergence,
         solve_ms=1e3 * (time.perf_counter() - begin),
     )
 
 
-def _end(iterations: int, change: float, config: SqpConfig) -> str:
+def _end(iterations: int, change: float, elapsed_s: float, config: SqpConfig) -> str:
     """Return why the iteration ends here, or nothing if it goes on."""
     if change <= config.convergence:
         return f"converged in {iterations} iterations"
-    return f"no convergence in {iterations} iterations" if iterations == config.max_iterations else ""
+    if iterations < config.max_iterations and elapsed_s < config.max_wall_time_s:
+        return ""
+    return f"no convergence in {iterations} iterations and {elapsed_s:.2f} s"
 
 
 def _change(current: Iterate, following: Iterate, step: Array, model: Linearisation) -> float:

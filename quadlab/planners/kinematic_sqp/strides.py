@@ -9,9 +9,12 @@ import numpy as np
 from quadlab.gaits.schedule import BoolArray, ContactSchedule
 from quadlab.geometry.rotations import Array, rotation_2d
 from quadlab.planners.problem import PlanningProblem, Waypoints
+from quadlab.robots.legs import LEG_COUNT
 
 _TIME_TOLERANCE = 1e-6  # [s]
 _POSE_TOLERANCE = 1e-9  # [m], [rad]
+_FEWEST_OF_REST = 2
+_LONGEST_STRETCH = 2.0  # how many times longer than those of steps the sample periods of a rest may be
 
 
 @dataclass(frozen=True)
@@ -19,7 +22,7 @@ class Cycle:
     """A part of the motion between two neighbouring waypoints, divided into samples.
 
     Attributes:
-        start_s, duration_s: first time and length of its first run in [s].
+        periods_s: distances of its samples, (samples,) in [s].
         increment: commanded displacement x, y in [m] and turn in [rad], seen from where it begins, (3,).
         contacts: which legs stand between neighbouring samples, (samples, 4).
         moves: whether a leg swings in it; a cycle in which none does is a rest.
@@ -27,8 +30,7 @@ class Cycle:
         repeats: how often it runs.
     """
 
-    start_s: float
-    duration_s: float
+    periods_s: Array
     increment: Array
     contacts: BoolArray
     moves: bool
@@ -36,9 +38,9 @@ class Cycle:
     repeats: int = 1
 
     @property
-    def sample_period_s(self) -> float:
-        """Distance of its samples in [s]."""
-        return self.duration_s / len(self.contacts)
+    def duration_s(self) -> float:
+        """Length of one run in [s]."""
+        return float(self.periods_s.sum())
 
 
 def cycle_chain(problem: PlanningProblem, samples_per_cycle: int, samples_per_rest: int) -> tuple[Cycle, ...]:
@@ -76,17 +78,28 @@ def _cycle(waypoints: Waypoints, schedule: ContactSchedule, index: int, samples:
     increment = np.append(rotation_2d(float(before[2])).T @ (after[:2] - before[:2]), after[2] - before[2])
     middles = start + (end - start) * (np.arange(samples) + 0.5) / samples
     contacts = np.array([schedule.contacts_at(float(time)) for time in middles])
-    return Cycle(start, end - start, increment, contacts, moves=not contacts.all())
+    return Cycle(np.full(samples, (end - start) / samples), increment, contacts, moves=not contacts.all())
 
 
-def _thinned(cycles: Sequence[Cycle], index: int, samples_per_rest: int) -> Cycle:
-    """Return a cycle; a rest gets about the sample period of the steps beside it, and few samples."""
+def _thinned(cycles: Sequence[Cycle], index: int, most: int) -> Cycle:
+    """Return a cycle; a rest gets about the sample period of the steps beside it, and at most ``most`` samples.
+
+    In a rest too long for that the robot waits: after its last sample if the motion ends there, else within one long
+    interval, the second one at the start of the motion and the middle one elsewhere.
+    """
     cycle = cycles[index]
     if cycle.moves:
         return cycle
-    beside = [other.sample_period_s for other in cycles[max(index - 1, 0) : index + 2] if other.moves]
-    fitting = round(cycle.duration_s / min(beside)) if beside else samples_per_rest
-    return replace(cycle, contacts=np.ones((min(max(fitting, 2), samples_per_rest), 4), dtype=bool))
+    beside = [float(other.periods_s[0]) for other in cycles[max(index - 1, 0) : index + 2] if other.moves]
+    duration = cycle.duration_s
+    period = min(beside, default=duration / most)
+    count = int(np.clip(round(duration / period), _FEWEST_OF_REST, most))
+    periods = np.full(count, duration / count)
+    if duration > _LONGEST_STRETCH * count * period:
+        periods = np.full(count, period)
+        if index + 1 < len(cycles):
+            periods[1 if index == 0 else count // 2] += duration - count * period
+    return replace(cycle, periods_s=periods, contacts=np.ones((count, LEG_COUNT), dtype=bool))
 
 
 def _runs(cycles: Sequence[Cycle]) -> Iterator[list[Cycle]]:

@@ -11,7 +11,6 @@ _BLOCKS = ("base_position", "base_rotation", "com")
 
 def rest_at_end(layout: SampleLayout, grid: SampleGrid) -> Equality:
     """Return equal last samples of base and CoM; nothing if the motion goes on for ever (as in the paper)."""
-    count = 1 if grid.ends_at_rest else 0
-    last = np.concatenate([layout.indices(block)[-1] for block in _BLOCKS] * count or [np.zeros(0, dtype=np.intp)])
-    before = np.concatenate([layout.indices(block)[-2] for block in _BLOCKS] * count or [np.zeros(0, dtype=np.intp)])
-    return tie("rest_at_end_m", last, before)
+    index = np.concatenate([layout.indices(block) for block in _BLOCKS], axis=1)
+    rows = slice(-1, None) if grid.ends_at_rest else slice(0, 0)
+    return tie("rest_at_end_m", index[rows], np.roll(index, 1, axis=0)[rows])

@@ -17,8 +17,8 @@ def smoothness(name: str, blocks: tuple[str, ...], layout: SampleLayout, grid: S
 
     Eq. (5) is printed with velocities per second. Here times count in units of the local sample period, h = (h_- +
     h_+) / 2: h [(q_i - q_{i-1}) / h_- - (q_{i+1} - q_i) / h_+], which is q_{i-1} - 2 q_i + q_{i+1} on equal steps.
-    This is an inference: with velocities per second the weights of Table I would ask 256 times more smoothness of the
-    velocities of a trot of 0.8 s than of a walk of 5 s and outweigh the travelled distance, while the joint costs in
+    This is an inference: with velocities per second and the weights of Table I a trot of 0.8 s would pay 39 times more
+    for the same path than a walk of 5 s, which outweighs the travelled distance, while the joint costs in
     Table I are smaller for the trot than for the walk. At a start or an end at rest the robot stands still before or
     after; where a cycle repeats, its own second sample follows, turned by the command.
 

@@ -3,6 +3,8 @@
 import time
 from dataclasses import dataclass
 
+import numpy as np
+
 from quadlab.errors import PlanningProblemError
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan, PlanReport
@@ -12,6 +14,8 @@ from quadlab.planners.vertex_zmp.fast.motion import motion_plan
 from quadlab.planners.vertex_zmp.fast.solve import PreparedProgram, prepare, solve
 from quadlab.planners.vertex_zmp.fast.transcription import ReducedTranscription, transcribe
 from quadlab.planners.vertex_zmp.solution import Solution
+
+_LARGEST_ANGLE = 10.0  # w T beyond which hyperbolic functions lose the digits that matter
 
 
 @dataclass(frozen=True)
@@ -54,13 +58,21 @@ def build_fast(problem: PlanningProblem, config: VertexZmpConfig) -> FastBuild:
     """Return the reduced program of a well-formed problem and the plan of its factorisation.
 
     Raises:
-        PlanningProblemError: if the feet are not points; the yaw of a longer foot is not bilinear.
+        PlanningProblemError: if the feet are not points (the yaw of a longer foot is not bilinear), or if the pendulum
+            falls too fast for the time between load nodes.
     """
     vertices = problem.model.foot_vertices
     if len(vertices) != 1 or vertices.any():
         raise PlanningProblemError(
             f"planner.transcription: 'fast' knows point feet, the model has feet with {len(vertices)} vertices; "
             "choose 'paper'"
+        )
+    model, longest_s = problem.model, config.polynomial_duration_s
+    angle = longest_s * np.sqrt(model.gravity / model.com_height)
+    if angle > _LARGEST_ANGLE:
+        raise PlanningProblemError(
+            f"model.com_height: at {model.com_height:g} m the pendulum falls e^{angle:.0f}-fold in "
+            f"polynomial_duration_s {longest_s:g} s, expected at most e^{_LARGEST_ANGLE:.0f}; choose shorter ones"
         )
     begin = time.perf_counter()
     transcription = transcribe(problem, config)

@@ -33,13 +33,15 @@ class Columns:
     @cached_property
     def stances(self) -> IntArray:
         """Position of each stance on the ground, (M, 2 axes)."""
-        return self.states.size + np.arange(2 * self.footholds.count).reshape(-1, 2)
+        numbers: IntArray = self.states.size + np.arange(2 * self.footholds.count).reshape(-1, 2)
+        return numbers
 
     @cached_property
     def last_feet(self) -> IntArray:
         """The foot at each node that carries the rest, (N,)."""
         contacts = self.grid.node_contacts
-        return contacts.shape[1] - 1 - np.argmax(contacts[:, ::-1], axis=1)
+        last: IntArray = contacts.shape[1] - 1 - np.argmax(contacts[:, ::-1], axis=1)
+        return last
 
     @cached_property
     def shared(self) -> BoolArray:

@@ -66,11 +66,12 @@ class Inequalities:
     upper: Array
 
 
-NO_PRODUCTS = Products(*(np.zeros(0, dtype=np.intp) for _ in range(3)), np.zeros(0))
+_NOTHING = np.zeros(0, dtype=np.intp)
+NO_PRODUCTS = Products(_NOTHING, _NOTHING, _NOTHING, np.zeros(0))
 
 
 def on_both_axes(columns: IntArray, values: Array) -> tuple[IntArray, Array]:
-    """Return rows for x and for y, (2 m, k), from columns (m, k, 2 axes) and common values (m, k); x and y alternate."""
+    """Return rows for x and for y, (2 m, k), from columns (m, k, 2 axes) and values (m, k); x and y alternate."""
     count, width, _ = columns.shape
     doubled = np.moveaxis(columns, 2, 1).reshape(2 * count, width)
     return doubled, np.repeat(values, 2, axis=0)

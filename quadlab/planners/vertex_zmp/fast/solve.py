@@ -16,7 +16,7 @@ from quadlab.planners.vertex_zmp.fast.solver.state import Settings
 from quadlab.planners.vertex_zmp.solution import Solution
 
 _ATTEMPT_LIMIT = 60  # iterations of one attempt
-_ELASTIC = 1e-4  # compliance of the constraints when their least violation is looked for
+_ELASTIC = 1e-3  # compliance of the constraints when their least violation is looked for
 _DUAL_SHARE = 1000.0  # gradient tolerance over constraint tolerance
 
 
@@ -52,7 +52,8 @@ def solve(prepared: PreparedProgram, guess: Array, config: VertexZmpConfig) -> S
     word, infeasible, answer = "limit of iterations", False, None
     for attempt, (name, settings) in enumerate(_attempts(program, config)):
         left = min(settings.max_iterations, config.max_iterations - spent)
-        answer = minimise(prepared.arrays, prepared.plan, prepared.pairs, first, settings._replace(max_iterations=left))
+        arrays = prepared.arrays if settings.elastic == 0.0 else _without_costs(prepared.arrays)
+        answer = minimise(arrays, prepared.plan, prepared.pairs, first, settings._replace(max_iterations=left))
         spent += answer.iterations
         if settings.elastic > 0.0:
             infeasible = _contradicts(program, answer, config.residual_tolerance)
@@ -74,23 +75,26 @@ def _attempts(program: BilinearProgram, config: VertexZmpConfig) -> Iterator[tup
         max_iterations=_ATTEMPT_LIMIT,
         tolerance=config.solver_tolerance,
         dual_tolerance=_DUAL_SHARE * config.solver_tolerance,
-        barrier=0.1 if indifferent else 1e-3,
-        proximal=1e-6 if indifferent else 1e-4,
+        barrier=1e-2 if indifferent else 1e-3,
+        proximal=1e-3 if indifferent else 3e-4,
         polish=1.0,
-        centred=indifferent,
         curvature=True,
         elastic=0.0,
         feasible_is_enough=indifferent,
         largest_growth=0.1,
     )
-    careful = usual._replace(curvature=False, barrier=0.1, proximal=1e-2)
-    yield "usual", usual
-    yield (
-        "elastic",
-        careful._replace(elastic=_ELASTIC, max_iterations=2 * _ATTEMPT_LIMIT, feasible_is_enough=False),
+    careful = usual._replace(curvature=False, barrier=0.1, proximal=1e-2, max_iterations=3 * _ATTEMPT_LIMIT)
+    elastic = careful._replace(
+        elastic=_ELASTIC, proximal=1e-3, feasible_is_enough=False, max_iterations=2 * _ATTEMPT_LIMIT
     )
+    yield "usual", usual
+    yield "elastic", elastic
     yield "from the least violation", usual
-    yield "careful", careful._replace(max_iterations=3 * _ATTEMPT_LIMIT)
+    yield "careful", careful
+
+
+def _without_costs(arrays: ProgramArrays) -> ProgramArrays:
+    return arrays._replace(h_values=np.zeros_like(arrays.h_values), gradient=np.zeros_like(arrays.gradient))
 
 
 def _contradicts(program: BilinearProgram, answer: Answer, tolerance: float) -> bool:

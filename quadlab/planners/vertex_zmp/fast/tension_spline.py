@@ -8,6 +8,7 @@ import numpy as np
 from quadlab.geometry.rotations import Array
 from quadlab.planners.vertex_zmp.footholds import IntArray
 
+_SHORT_ANGLE = 0.02  # w T of an interval of about 5 ms
 _SMALL_ANGLE = 0.3  # below this the odd function is summed as a series, to 1e-16
 
 
@@ -58,6 +59,14 @@ class TensionSpline:
         """Return the share of (c_0, v_0, c_1, v_1) in the CoP u = c - c_ddot / w^2, (s, 4)."""
         acceleration = self.weights(intervals, fractions, 2)
         return self.weights(intervals, fractions) - acceleration / self.rate**2
+
+    def row_scales(self, intervals: IntArray) -> Array:
+        """Return factors for rows about the CoP, (s,): 1, less for intervals so short that the CoP hardly matters.
+
+        The share of the states in the CoP grows with 1 / (w T)^2.
+        """
+        scales: Array = np.minimum(1.0, (self.rate * self.durations_s[intervals] / _SHORT_ANGLE) ** 2)
+        return scales
 
     def _functions(self, intervals: IntArray, fractions: Array, derivative: int) -> Array:
         """Return 1, s, C, S or their derivatives by s, (s, 4)."""

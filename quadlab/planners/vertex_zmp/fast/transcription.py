@@ -8,6 +8,7 @@ from quadlab.geometry.rotations import Array
 from quadlab.planners.heading import heading_spline
 from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.vertex_zmp.config import VertexZmpConfig
+from quadlab.planners.vertex_zmp.fast.assembly import Unknowns, assemble
 from quadlab.planners.vertex_zmp.fast.columns import Columns
 from quadlab.planners.vertex_zmp.fast.constraints.cop_continuity import cop_continuity
 from quadlab.planners.vertex_zmp.fast.constraints.load_balance import load_balance
@@ -19,7 +20,7 @@ from quadlab.planners.vertex_zmp.fast.costs.robustness import robustness
 from quadlab.planners.vertex_zmp.fast.costs.waypoint import waypoint
 from quadlab.planners.vertex_zmp.fast.grid import load_grid
 from quadlab.planners.vertex_zmp.fast.model import ReducedModel
-from quadlab.planners.vertex_zmp.fast.program import BilinearProgram, Unknowns, assemble
+from quadlab.planners.vertex_zmp.fast.program import BilinearProgram
 from quadlab.planners.vertex_zmp.fast.tension_spline import TensionSpline
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex
 

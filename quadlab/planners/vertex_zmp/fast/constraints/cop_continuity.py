@@ -17,5 +17,6 @@ def cop_continuity(model: ReducedModel) -> Equalities:
     ends = model.spline.cop_weights(before, np.ones(len(after)))
     starts = model.spline.cop_weights(after, np.zeros(len(after)))
     columns = np.concatenate([model.knot_columns(before), model.knot_columns(after)], axis=1)
-    both = on_both_axes(columns, np.concatenate([ends, -starts], axis=1))
+    scales = np.minimum(model.spline.row_scales(before), model.spline.row_scales(after))
+    both = on_both_axes(columns, scales[:, None] * np.concatenate([ends, -starts], axis=1))
     return Equalities(Rows("cop_continuity_m", *both, np.zeros(len(both[0]))), NO_PRODUCTS)

@@ -13,6 +13,8 @@ def load_balance(model: ReducedModel) -> Equalities:
 
     u(x) is the CoP that the motion between two knots implies. Loads are linear between nodes, so the CoP is in the
     hull of the feet everywhere if it is at the nodes: a combination of points of a convex set stays in the set.
+    Rows of intervals of a few milliseconds are scaled down.
+
     Deviation: the exact pendulum in place of a quartic that satisfies it at three instants.
     """
     intervals, fractions = model.grid.node_places
@@ -21,8 +23,9 @@ def load_balance(model: ReducedModel) -> Equalities:
     last = _stance_columns(model)[np.arange(len(intervals)), model.columns.last_feet]
     columns = np.concatenate([columns, last[:, None, :]], axis=1)
     values = np.concatenate([values, np.full((len(values), 1), -1.0)], axis=1)
-    both = on_both_axes(columns, values)
-    return Equalities(Rows("load_balance_m", *both, np.zeros(len(both[0]))), _load_products(model, last))
+    scales = model.spline.row_scales(intervals)
+    both = on_both_axes(columns, scales[:, None] * values)
+    return Equalities(Rows("load_balance_m", *both, np.zeros(len(both[0]))), _load_products(model, last, scales))
 
 
 def _stance_columns(model: ReducedModel) -> IntArray:
@@ -31,16 +34,16 @@ def _stance_columns(model: ReducedModel) -> IntArray:
     return model.columns.stances[stances]
 
 
-def _load_products(model: ReducedModel, last: IntArray) -> Products:
+def _load_products(model: ReducedModel, last: IntArray, scales: Array) -> Products:
     """Return -lambda^f (p^f - p^last) for all feet that have a share of their own."""
     nodes, feet = np.nonzero(model.columns.shared)
     own = _stance_columns(model)[nodes, feet]
     loads = np.repeat(model.columns.loads[nodes, feet][:, None], 2, axis=1)
     rows = 2 * nodes[:, None] + np.arange(2)
-    ones: Array = np.ones(rows.size)
+    weights = np.repeat(scales[nodes], 2)
     return Products(
         rows=np.concatenate([rows.ravel(), rows.ravel()]),
         first=np.concatenate([loads.ravel(), loads.ravel()]),
         second=np.concatenate([own.ravel(), last[nodes].ravel()]),
-        coefficients=np.concatenate([-ones, ones]),
+        coefficients=np.concatenate([-weights, weights]),
     )

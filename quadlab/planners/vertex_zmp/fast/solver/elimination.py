@@ -1,5 +1,6 @@
 """Planning of the factorisation K = L D L' from the pattern of K alone."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -8,8 +9,6 @@ from scipy.sparse.linalg import splu
 
 from quadlab.planners.vertex_zmp.fast.solver.jit import compiled, compiled_entry, source_fingerprint
 from quadlab.planners.vertex_zmp.footholds import IntArray
-
-_FINGERPRINT = source_fingerprint()
 
 
 class Elimination(NamedTuple):
@@ -43,10 +42,8 @@ def fill_reducing_order(pattern: sparse.csc_array) -> IntArray:
     return np.argsort(factors.perm_c).astype(np.intp)
 
 
-@compiled_entry
-def plan_elimination(order: IntArray, k_begins: IntArray, k_rows: IntArray) -> Elimination:
-    """Return the pattern of L for the permuted upper triangle (k_begins, k_rows)."""
-    _ = _FINGERPRINT
+@compiled
+def _plan_elimination(order: IntArray, k_begins: IntArray, k_rows: IntArray) -> Elimination:
     size = len(k_begins) - 1
     parent, counts = _tree(k_begins, k_rows)
     row_begins = np.zeros(size + 1, np.intp)
@@ -110,3 +107,26 @@ def _row_pattern(
             top -= 1
             stack[top] = path[length]
     return top
+
+
+def _compile_entry(fingerprint: int) -> Callable[[IntArray, IntArray, IntArray], Elimination]:
+    """Return the entry point, which is compiled anew when any file of this folder has changed."""
+
+    def entry(order: IntArray, k_begins: IntArray, k_rows: IntArray) -> Elimination:
+        _ = fingerprint
+        return _plan_elimination(order, k_begins, k_rows)
+
+    return compiled_entry(entry)
+
+
+_entry = _compile_entry(source_fingerprint())
+
+
+def plan_elimination(order: IntArray, k_begins: IntArray, k_rows: IntArray) -> Elimination:
+    """Return the pattern of L for the permuted upper triangle (k_begins, k_rows).
+
+    Args:
+        order: the row of the original matrix that is eliminated k-th, (n,).
+        k_begins, k_rows: upper triangle by columns with sorted rows, (n + 1,) and (entries,).
+    """
+    return _entry(order, k_begins, k_rows)

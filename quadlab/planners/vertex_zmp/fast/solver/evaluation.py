@@ -5,16 +5,15 @@ import numpy as np
 from quadlab.geometry.rotations import Array
 from quadlab.planners.vertex_zmp.fast.solver.jit import compiled
 from quadlab.planners.vertex_zmp.fast.solver.numbers import ProgramArrays
-from quadlab.planners.vertex_zmp.fast.solver.state import Iterate, Residuals, Settings
+from quadlab.planners.vertex_zmp.fast.solver.state import Iterate, Residuals
 
 
 @compiled
-def evaluate(program: ProgramArrays, at: Iterate, first: Array, settings: Settings, out: Residuals) -> None:
-    """Fill ``out`` at the iterate ``at``; ``first`` is the first iterate, to which a centred proximal term pulls."""
+def evaluate(program: ProgramArrays, at: Iterate, elastic: float, out: Residuals) -> None:
+    """Fill ``out`` at the iterate ``at``."""
     _equalities(program, at.z, out.equality, out.jacobian)
     inequality_values(program, at.z, out.values)
-    _dual(program, at, first, settings, out)
-    elastic = settings.elastic
+    _dual(program, at, out)
     if elastic > 0.0:
         for row in range(len(at.y)):
             out.equality[row] -= elastic * at.y[row]
@@ -56,12 +55,11 @@ def inequality_values(program: ProgramArrays, z: Array, values: Array) -> None:
 
 
 @compiled
-def _dual(program: ProgramArrays, at: Iterate, first: Array, settings: Settings, out: Residuals) -> None:
-    """Write h + H z + proximal (z - first) + J' y - G' (w_lower - w_upper) to ``out.dual``."""
+def _dual(program: ProgramArrays, at: Iterate, out: Residuals) -> None:
+    """Write h + H z + J' y - G' (w_lower - w_upper) to ``out.dual``."""
     z, dual = at.z, out.dual
-    pull = settings.proximal if settings.centred else 0.0
     for column in range(len(z)):
-        dual[column] = program.gradient[column] + pull * (z[column] - first[column])
+        dual[column] = program.gradient[column]
     for column in range(len(z)):
         for entry in range(program.h_begins[column], program.h_begins[column + 1]):
             dual[program.h_rows[entry]] += program.h_values[entry] * z[column]

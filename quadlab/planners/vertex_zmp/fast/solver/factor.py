@@ -1,15 +1,14 @@
 """Numeric factorisation K = L D L' with a pattern that is known, and solution with it."""
 
-import numpy as np
-
 from quadlab.geometry.rotations import Array
 from quadlab.planners.vertex_zmp.fast.solver.elimination import Elimination
 from quadlab.planners.vertex_zmp.fast.solver.jit import compiled
+from quadlab.planners.vertex_zmp.footholds import IntArray
 
 
 @compiled
 def factorise(
-    plan: Elimination, k_values: Array, l_values: Array, inverse_pivots: Array, row: Array, filled: np.ndarray
+    plan: Elimination, k_values: Array, l_values: Array, inverse_pivots: Array, row: Array, filled: IntArray
 ) -> int:
     """Fill ``l_values`` and ``inverse_pivots``, row after row; return the number of negative pivots.
 

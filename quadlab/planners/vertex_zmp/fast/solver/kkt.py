@@ -4,6 +4,7 @@ from collections import OrderedDict
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 
 from quadlab.geometry.rotations import Array
@@ -87,7 +88,7 @@ def _new_plan(program: BilinearProgram) -> KktPlan:
     a_columns = np.repeat(np.arange(n), np.diff(a.indptr))
     begins, first, second = row_pairs(g)
     upper = h.indices <= h_columns
-    blocks = [
+    blocks: list[tuple[NDArray[np.integer], NDArray[np.integer]]] = [
         (np.arange(n + e), np.arange(n + e)),
         (a_columns, n + a.indices),
         (h.indices[upper], h_columns[upper]),

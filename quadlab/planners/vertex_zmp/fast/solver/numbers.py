@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import sparse
 
+from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
 from quadlab.planners.vertex_zmp.fast.program import BilinearProgram
 from quadlab.planners.vertex_zmp.footholds import IntArray
@@ -46,31 +47,35 @@ class ProgramArrays(NamedTuple):
     g_values: Array
     lower: Array
     upper: Array
-    has_lower: Array
-    has_upper: Array
+    has_lower: BoolArray
+    has_upper: BoolArray
 
 
 def program_arrays(program: BilinearProgram) -> ProgramArrays:
     """Return the arrays of ``program``."""
-    h, a, g = program.hessian, program.linear, program.inequality
-    products = program.products
+    h, a, g, products = program.hessian, program.linear, program.inequality, program.products
     return ProgramArrays(
-        *_integers(h.indptr, h.indices),
-        h.data.astype(float),
-        program.gradient,
-        *_integers(a.indptr, a.indices),
-        a.data,
-        program.right,
-        *_integers(products.rows, products.first, products.second),
-        products.coefficients,
-        entry_places(a, products.rows, products.first),
-        entry_places(a, products.rows, products.second),
-        *_integers(g.indptr, g.indices),
-        g.data,
-        program.lower,
-        program.upper,
-        program.lower > -ABSENT,
-        program.upper < ABSENT,
+        h_begins=_integers(h.indptr),
+        h_rows=_integers(h.indices),
+        h_values=h.data.astype(float),
+        gradient=program.gradient,
+        a_begins=_integers(a.indptr),
+        a_rows=_integers(a.indices),
+        a_values=a.data,
+        right=program.right,
+        p_rows=_integers(products.rows),
+        p_first=_integers(products.first),
+        p_second=_integers(products.second),
+        p_coefficients=products.coefficients,
+        p_by_first=entry_places(a, products.rows, products.first),
+        p_by_second=entry_places(a, products.rows, products.second),
+        g_begins=_integers(g.indptr),
+        g_columns=_integers(g.indices),
+        g_values=g.data,
+        lower=program.lower,
+        upper=program.upper,
+        has_lower=program.lower > -ABSENT,
+        has_upper=program.upper < ABSENT,
     )
 
 
@@ -81,5 +86,5 @@ def entry_places(matrix: sparse.csc_array, rows: IntArray, columns: IntArray) ->
     return np.searchsorted(stored, columns * height + rows).astype(np.intp)
 
 
-def _integers(*arrays: np.ndarray) -> tuple[IntArray, ...]:
-    return tuple(np.ascontiguousarray(array, dtype=np.intp) for array in arrays)
+def _integers(array: np.ndarray) -> IntArray:
+    return np.ascontiguousarray(array, dtype=np.intp)

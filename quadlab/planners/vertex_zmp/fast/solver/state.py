@@ -50,9 +50,8 @@ class Settings(NamedTuple):
         tolerance: largest violation of a constraint and largest complementarity.
         dual_tolerance: largest component of the gradient of the Lagrangian.
         barrier: first complementarity.
-        proximal: curvature that is added to every unknown.
+        proximal: curvature that is added to every unknown; it shortens steps and does not move the solution.
         polish: the same once the cost has settled.
-        centred: whether the proximal term pulls to the first iterate; otherwise it only shortens steps.
         curvature: whether the curvature of the products is used where it keeps the step a descent direction.
         elastic: 0, or the compliance of all constraints: they become the cost sum(violation^2) / (2 elastic).
         feasible_is_enough: whether to stop at the first point that satisfies all constraints.
@@ -65,7 +64,6 @@ class Settings(NamedTuple):
     barrier: float
     proximal: float
     polish: float
-    centred: bool
     curvature: bool
     elastic: float
     feasible_is_enough: bool

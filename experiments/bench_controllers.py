@@ -1,0 +1,133 @@
+"""Time of a control tick by controller and number of standing feet: model, reference, assembly and solve.
+
+    python experiments/bench_controllers.py [--robot anymal_b] [--repeats 5] [--closed-loop]
+
+A trial is simulated once; its measured states are then given to a fresh controller again and again, which must return
+the same torques bit by bit. The time of a tick is the smallest over the repetitions, so that a busy machine does not
+count; with ``--closed-loop`` it is that of the simulated trial, where the physics have emptied the caches in between.
+"""
+
+import argparse
+import gc
+import sys
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from quadlab.controllers.telemetry import ControlTelemetry, LegMode
+from quadlab.controllers.tracking_controller import build_controller
+from quadlab.errors import QuadlabError
+from quadlab.geometry.rotations import Array
+from quadlab.planners.plan import MotionPlan
+from quadlab.robots.model import RobotModel, load_robot
+from quadlab.robots.state import RobotState
+from quadlab.simulation.simulator import Simulator
+from quadlab.trials.compose import compose_trial
+from quadlab.trials.config import TrialConfig
+from quadlab.trials.planning import build_planner, planning_problem
+
+CONTROLLERS = ("hierarchical", "bellicoso2016", "gehring2017", "weighted", "projected_inverse_dynamics")
+GAITS = ("walk", "trot")
+DURATION_S = 8.0
+PARTS = ("model", "reference", "solve", "model + solve", "tick")
+
+
+@dataclass(frozen=True)
+class Ticks:
+    """Computing time and outcome of the ticks of one pass.
+
+    Attributes:
+        timings_us: model, reference and solve, (ticks, 3) in [us].
+        standing: number of standing feet, (ticks,).
+        torques: (ticks, 12) in [N m].
+        fallbacks: ticks in which the solver's answer was not used.
+    """
+
+    timings_us: Array
+    standing: Array
+    torques: Array
+    fallbacks: int
+
+
+def collect(telemetry: list[ControlTelemetry]) -> Ticks:
+    """Return the numbers of a pass."""
+    return Ticks(
+        timings_us=np.array([[tick.model_us, tick.reference_us, tick.solve_us] for tick in telemetry]),
+        standing=np.array([tick.leg_modes.count(LegMode.STANCE) for tick in telemetry]),
+        torques=np.array([tick.torques_desired for tick in telemetry]),
+        fallbacks=telemetry[-1].fallbacks,
+    )
+
+
+def simulate(config: TrialConfig, robot: RobotModel) -> tuple[MotionPlan, list[RobotState], Ticks]:
+    """Return plan, measured states and ticks of a closed loop."""
+    simulator = Simulator(robot, config.scenario, config.simulation, config.seed)
+    planner = build_planner(config)
+    outcome = planner.solve(planner.build(planning_problem(config, robot, simulator.read())))
+    if outcome.plan is None:
+        raise QuadlabError(f"bench: no plan: {outcome.status}: {outcome.reason}")
+    controller = build_controller(config.controller, robot)
+    states = [simulator.read()]
+    controller.start(outcome.plan, states[0])
+    telemetry = []
+    for _ in range(round(config.duration_s / controller.period_s)):
+        command, report = controller.tick(states[-1])
+        telemetry.append(report)
+        simulator.advance(command, controller.period_s)
+        states.append(simulator.read())
+    return outcome.plan, states[:-1], collect(telemetry)
+
+
+def replay(config: TrialConfig, robot: RobotModel, plan: MotionPlan, states: list[RobotState]) -> Ticks:
+    """Return the ticks of a fresh controller that is given ``states``."""
+    controller = build_controller(config.controller, robot)
+    controller.start(plan, states[0])
+    gc.collect()
+    gc.disable()
+    telemetry = [controller.tick(state)[1] for state in states]
+    gc.enable()
+    return collect(telemetry)
+
+
+def bench(controller: str, robot_name: str, gait: str, repeats: int) -> list[str]:
+    """Return one line for each number of standing feet; ``repeats`` = 0 takes the times of the closed loop."""
+    overrides = [f"controller={controller}", f"robot={robot_name}", f"gait={gait}", f"duration_s={DURATION_S:g}"]
+    config = compose_trial(overrides)
+    robot = load_robot(config.robot)
+    plan, states, loop = simulate(config, robot)
+    passes = [replay(config, robot, plan, states) for _ in range(repeats)] or [loop]
+    identical = all(each.torques.tobytes() == loop.torques.tobytes() for each in passes)
+    best = np.min([each.timings_us for each in passes], axis=0)
+    columns = np.column_stack([best, best[:, 0] + best[:, 2], best.sum(axis=1)])
+    notes = ("" if identical else "  TORQUES DIFFER") + (f"  {loop.fallbacks} fallbacks" if loop.fallbacks else "")
+    lines = []
+    for feet in sorted(set(loop.standing.tolist()), reverse=True):
+        rows = columns[loop.standing == feet]
+        cells = "".join(f"{np.median(column):8.0f} {np.percentile(column, 99):6.0f}" for column in rows.T)
+        lines.append(f"{controller:27}{gait:6}{feet:4}{len(rows):7}{cells}{notes}")
+    return lines
+
+
+def main() -> int:
+    """Print all measurements."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--robot", default="anymal_b", help="name in conf/robot")
+    parser.add_argument("--repeats", type=int, default=3, help="passes over the same states")
+    parser.add_argument("--closed-loop", action="store_true", help="times within the simulated trial instead")
+    parser.add_argument("--controllers", nargs="+", default=CONTROLLERS, help="names in conf/controller")
+    arguments = parser.parse_args()
+    repeats = 0 if arguments.closed_loop else arguments.repeats
+    sys.stdout.write(f"{'median and p99 in us':27}{'gait':6}{'feet':>4}{'ticks':>7}")
+    sys.stdout.write("".join(f"{part:>15}" for part in PARTS) + "\n")
+    with threadpool_limits(1):
+        for controller, gait in product(arguments.controllers, GAITS):
+            for line in bench(controller, arguments.robot, gait, repeats):
+                sys.stdout.write(f"{line}\n")
+            sys.stdout.flush()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,101 @@
+"""The solver behind controllers with levels: which method, and whether its answer is proved in every tick."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field, field_validator
+
+from quadlab.controllers.controller_config import TrackingControllerConfig
+from quadlab.controllers.formulation import FormulationName
+from quadlab.controllers.hierarchy import StackedLevels, certificate, solve_stacked, unstack
+from quadlab.controllers.hierarchy.cascade import CascadeStatus, QpSolver, solve_cascade
+from quadlab.controllers.hierarchy.jit import compiled_entry
+from quadlab.controllers.hierarchy.level import IndexArray
+from quadlab.controllers.task_levels import LevelConfig, check_level_names
+from quadlab.geometry.rotations import Array
+
+_ITERATION_LIMIT = 500
+
+
+class LevelledControllerConfig(TrackingControllerConfig):
+    """Tasks in levels and how they are solved.
+
+    Attributes:
+        levels: highest priority first; names are unique.
+        formulation: decision variables; all have the same solutions, and the reduced ones are solved fastest.
+        method: lexicographic: one active-set method for all levels; cascade: one quadratic program a level, as printed
+            in Bellicoso 2016, Eq. (9)-(12).
+        qp_solver: back end of the cascade.
+        certify: whether each tick is proved optimal (see ``certificate``); it costs about as much as the tick itself.
+    """
+
+    levels: Annotated[tuple[LevelConfig, ...], Field(min_length=1)]
+    formulation: FormulationName
+    method: Literal["lexicographic", "cascade"]
+    qp_solver: QpSolver
+    certify: bool
+
+    @field_validator("levels")
+    @classmethod
+    def _unique_names(cls, levels: tuple[LevelConfig, ...]) -> tuple[LevelConfig, ...]:
+        return check_level_names(levels)
+
+
+@dataclass(frozen=True)
+class LevelSolution:
+    """What a method found.
+
+    Attributes:
+        x: (n,) decision variables.
+        residuals: norm of the slacks of each level, by name.
+        iterations: of the active set, or quadratic programs of the cascade.
+        solved: whether the method finished.
+        certificate: largest remainder of the optimality conditions over the levels; NaN if not asked for.
+    """
+
+    x: Array
+    residuals: dict[str, float]
+    iterations: int
+    solved: bool
+    certificate: float
+
+
+class LevelSolver:
+    """Solves stacked levels by the configured method."""
+
+    def __init__(self, config: LevelledControllerConfig, names: Sequence[str]) -> None:
+        self.config = config
+        self.names = tuple(names)
+
+    def solve(self, levels: StackedLevels, start: Array) -> LevelSolution:
+        """Return the solution of ``levels`` closest to ``start``, (n,)."""
+        x, residuals, iterations, solved = (
+            self._lexicographic(levels, start)
+            if self.config.method == "lexicographic"
+            else self._cascade(levels, start)
+        )
+        remainder = float(certificate(unstack(levels, self.names), x).max()) if self.config.certify else np.nan
+        return LevelSolution(x, residuals, iterations, solved, remainder)
+
+    def _lexicographic(self, levels: StackedLevels, start: Array) -> tuple[Array, dict[str, float], int, bool]:
+        x, slacks, _, iterations, code = solve_stacked(
+            levels.matrix, levels.lower, levels.upper, levels.breaks, start, _ITERATION_LIMIT
+        )
+        norms = _norms(slacks, levels.breaks).tolist()
+        return x, dict(zip(self.names, norms, strict=True)), iterations, code == 0
+
+    def _cascade(self, levels: StackedLevels, start: Array) -> tuple[Array, dict[str, float], int, bool]:
+        solution = solve_cascade(unstack(levels, self.names), start, qp_solver=self.config.qp_solver)
+        return solution.x, solution.residual_norms, solution.programs, solution.status is CascadeStatus.SOLVED
+
+
+@compiled_entry
+def _norms(slacks: Array, breaks: IndexArray) -> Array:
+    """Return the norm of the slacks of each level, (levels,)."""
+    norms = np.zeros(len(breaks) - 1)
+    for level in range(len(norms)):
+        for row in range(breaks[level], breaks[level + 1]):
+            norms[level] += slacks[row] * slacks[row]
+    return np.sqrt(norms)

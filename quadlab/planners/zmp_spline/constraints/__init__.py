@@ -1,0 +1,1 @@
+"""Constraint sets of the ZMP spline planner, one a file."""

@@ -1,0 +1,1 @@
+"""Cost terms of the ZMP spline planner, one a file."""

@@ -1,0 +1,92 @@
+"""The inertial step: kinematics of a known motion, exact Jacobian, and what it cannot see."""
+
+import numpy as np
+import pytest
+from estimation_cases import PERIOD, any_filter_state, ekf_config
+
+from quadlab.estimation.error_state import (
+    ERROR_SIZE,
+    FEET,
+    ORIENTATION,
+    POSITION,
+    VELOCITY,
+    FilterState,
+    box_minus,
+    box_plus,
+)
+from quadlab.estimation.prediction import error_dynamics, inertial_step, predict_state, process_noise
+from quadlab.geometry.rotations import Array, rotation_zyx
+from quadlab.planners.problem import GRAVITY
+from quadlab.robots.sensing import SensorReading
+
+RADIUS = 0.03  # [m]
+
+
+def reading(gyro: Array, accelerometer: Array) -> SensorReading:
+    return SensorReading(0.0, gyro, accelerometer, np.zeros(12), np.zeros(12), np.zeros(12), np.zeros((4, 3)))
+
+
+def any_reading(seed: int) -> tuple[SensorReading, Array]:
+    generator = np.random.default_rng(1000 + seed)
+    return reading(generator.normal(size=3), 10.0 * generator.normal(size=3)), generator.normal(size=(4, 3))
+
+
+def stepped(state: FilterState, measured: SensorReading, spins: Array) -> FilterState:
+    return predict_state(state, inertial_step(state, measured, spins, PERIOD), RADIUS)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_jacobian_is_the_derivative_of_the_predicted_error(seed: int) -> None:
+    state, (measured, spins) = any_filter_state(seed), any_reading(seed)
+    step = inertial_step(state, measured, spins, PERIOD)
+    predicted = predict_state(state, step, RADIUS)
+    size, numeric = 1e-5, np.empty((ERROR_SIZE, ERROR_SIZE))
+    for column in range(ERROR_SIZE):
+        error = np.zeros(ERROR_SIZE)
+        error[column] = size
+        above, below = (stepped(box_plus(state, sign * error), measured, spins) for sign in (1.0, -1.0))
+        numeric[:, column] = (box_minus(above, predicted) - box_minus(below, predicted)) / (2.0 * size)
+    np.testing.assert_allclose(error_dynamics(predicted, step, RADIUS), numeric, atol=5e-7)
+
+
+def test_resting_unit_stays_at_rest_whatever_its_attitude() -> None:
+    rotation = rotation_zyx(0.4, -0.3, 0.2)
+    state = FilterState(np.zeros(3), np.zeros(3), rotation, np.zeros((4, 3)), np.zeros(3), np.zeros(3))
+    later = stepped(state, reading(np.zeros(3), rotation.T @ [0.0, 0.0, GRAVITY]), np.zeros((4, 3)))
+    np.testing.assert_allclose(box_minus(later, state), np.zeros(ERROR_SIZE), atol=1e-14)
+
+
+def test_foot_rolls_by_its_radius_times_the_angle_of_the_shank() -> None:
+    state = FilterState(np.zeros(3), np.zeros(3), np.eye(3), np.zeros((4, 3)), np.zeros(3), np.zeros(3))
+    spins = np.zeros((4, 3))
+    spins[1, 1] = 2.0  # [rad/s] about y: the top of the sphere moves along +x
+    later = stepped(state, reading(np.zeros(3), np.zeros(3)), spins)
+    np.testing.assert_allclose(later.feet[1], [RADIUS * 2.0 * PERIOD, 0.0, 0.0], atol=1e-15)
+    np.testing.assert_array_equal(later.feet[[0, 2, 3]], 0.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_position_and_heading_are_unobservable_at_every_estimate(seed: int) -> None:
+    """What shifts or turns base and feet together stays what it was and is not felt by the legs."""
+    state, (measured, spins) = any_filter_state(seed), any_reading(seed)
+    step = inertial_step(state, measured, spins, PERIOD)
+    jacobian = error_dynamics(predict_state(state, step, RADIUS), step, RADIUS)
+    hidden = np.zeros((ERROR_SIZE, 4))
+    hidden[POSITION, :3] = np.eye(3)
+    hidden[FEET, :3] = np.tile(np.eye(3), (4, 1))
+    hidden[ORIENTATION, 3] = [0.0, 0.0, 1.0]
+    np.testing.assert_allclose(jacobian @ hidden, hidden, atol=1e-14)
+
+
+def test_noise_of_a_period_is_symmetric_and_grows_velocity_and_standing_feet() -> None:
+    state, (measured, spins) = any_filter_state(0), any_reading(0)
+    config = ekf_config().process_noise
+    step = inertial_step(state, measured, spins, PERIOD)
+    jacobian = error_dynamics(predict_state(state, step, RADIUS), step, RADIUS)
+    noise, in_air = (process_noise(jacobian, config, np.array([flag] + [False] * 3), PERIOD) for flag in (True, False))
+    np.testing.assert_array_equal(noise, noise.T)
+    assert np.linalg.eigvalsh(noise).min() > -1e-20
+    least = PERIOD * config.accelerometer_mps2_per_sqrt_hz**2
+    assert np.all(np.diag(noise)[VELOCITY] >= 0.999 * least)
+    slip = PERIOD * config.foot_mps_per_sqrt_hz**2
+    np.testing.assert_allclose(np.diag(noise - in_air)[FEET], [slip] * 3 + [0.0] * 9, atol=1e-16)
