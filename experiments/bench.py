@@ -40,6 +40,7 @@ def bench_planner(robot_name: str, gait: str, repeats: int) -> str:
     state = Simulator(robot, config.scenario, config.simulation, config.seed).read()
     problem = planning_problem(config, robot, state)
     planner: Any = part_of("planner", config.planner)(config.planner)
+    planner.prepare()
     builds, solves = [], []
     for _ in range(repeats):
         began = time.perf_counter()

@@ -83,8 +83,9 @@ class LevelSolver:
         x, slacks, _, iterations, code = solve_stacked(
             levels.matrix, levels.lower, levels.upper, levels.breaks, start, _ITERATION_LIMIT
         )
-        norms = _norms(slacks, levels.breaks).tolist()
-        return x, dict(zip(self.names, norms, strict=True)), iterations, code == 0
+        norms = _norms(levels.matrix, levels.lower, levels.upper, levels.breaks, slacks)
+        solved = code == 0 and not np.isnan(norms).any()
+        return x, dict(zip(self.names, norms.tolist(), strict=True)), iterations, solved
 
     def _cascade(self, levels: StackedLevels, start: Array) -> tuple[Array, dict[str, float], int, bool]:
         solution = solve_cascade(unstack(levels, self.names), start, qp_solver=self.config.qp_solver)
@@ -92,10 +93,15 @@ class LevelSolver:
 
 
 @compiled_entry
-def _norms(slacks: Array, breaks: IndexArray) -> Array:
-    """Return the norm of the slacks of each level, (levels,)."""
+def _norms(matrix: Array, lower: Array, upper: Array, breaks: IndexArray, slacks: Array) -> Array:
+    """Return the norm of the slacks of each level, (levels,); NaN where a row has a number that is none.
+
+    The solver takes comparisons with NaN for rows that are satisfied, so that its status does not tell.
+    """
     norms = np.zeros(len(breaks) - 1)
     for level in range(len(norms)):
         for row in range(breaks[level], breaks[level + 1]):
             norms[level] += slacks[row] * slacks[row]
+            if np.isnan(lower[row]) or np.isnan(upper[row]) or not np.isfinite(matrix[row].sum()):
+                norms[level] = np.nan
     return np.sqrt(norms)

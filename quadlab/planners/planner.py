@@ -35,6 +35,10 @@ class PlanningOutcome:
 class Planner(Protocol):
     """What every planner can do."""
 
+    def prepare(self) -> None:
+        """Load whatever takes long once a process, so that ``build`` and ``solve`` are timed without it."""
+        ...
+
     def build(self, problem: PlanningProblem) -> Any:
         """Return the transcription of ``problem``: everything but the solution.
 

@@ -54,6 +54,7 @@ def run_trial(config: TrialConfig, directory: Path, progress: TrialProgress) -> 
     simulator = Simulator(robot, config.scenario, config.simulation, config.seed)
     observer = Observer(config, robot, simulator)
     planner = build_planner(config)
+    planner.prepare()
     problem = planning_problem(config, robot, observer.observe(simulator.reset()).state)
     outcome = planner.solve(planner.build(problem))
     if outcome.plan is None:

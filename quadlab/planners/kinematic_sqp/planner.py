@@ -53,6 +53,9 @@ class KinematicSqpPlanner:
     def __init__(self, config: KinematicSqpConfig) -> None:
         self.config = config
 
+    def prepare(self) -> None:
+        """Do nothing: all it needs was loaded with this module."""
+
     def build(self, problem: PlanningProblem) -> KinematicSqpBuild:
         """Return the program of ``problem``.
 

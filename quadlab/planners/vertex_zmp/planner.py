@@ -28,6 +28,15 @@ class VertexZmpPlanner:
     def __init__(self, config: VertexZmpConfig) -> None:
         self.config = config
 
+    def prepare(self) -> None:
+        """Load CasADi, or compile or load the machine code of ``fast``."""
+        if self.config.transcription == "fast":
+            from quadlab.planners.vertex_zmp.fast.warm_up import load_compiled  # noqa: PLC0415
+
+            load_compiled(self.config)
+        else:
+            import quadlab.planners.vertex_zmp.paper.build  # noqa: F401, PLC0415
+
     def build(self, problem: PlanningProblem) -> Build:
         """Return the program of ``problem``, ready to be solved.
 

@@ -35,6 +35,9 @@ class ZmpSplinePlanner:
     def __init__(self, config: ZmpSplineConfig) -> None:
         self.config = config
 
+    def prepare(self) -> None:
+        """Do nothing: all it needs was loaded with this module."""
+
     def build(self, problem: PlanningProblem) -> SplineTranscription:
         """Return the program of ``problem``, ready to be solved.
 
