@@ -204,24 +204,22 @@ def run(directory: Path, *overrides: str) -> TrialResult:
 
 
 def test_trot_that_is_pushed_and_plans_again_stays_up_and_is_repeatable(tmp_path: Path) -> None:
-    pushed = ["scenario=push", "scenario.pushes.0.force_n=100", "scenario.pushes.0.start_s=1.2", "duration_s=3.6"]
+    pushed = ["scenario=push", "scenario.pushes.0.force_n=100", "scenario.pushes.0.start_s=1.0", "duration_s=2.6"]
     results = [run(tmp_path / name, *pushed, "replanning.period_s=0.2") for name in "ab"]
     assert results[0].status is TrialStatus.COMPLETED, results[0].status_reason
     assert results[0].replannings is not None and results[0].replannings > 5
     assert results[0].replanning_failures is not None and results[0].replanning_failures < results[0].replannings
     assert results[0].state_sha256 == results[1].state_sha256
-    once = run(tmp_path / "once", *pushed)
-    assert once.replannings is None
-    assert once.state_sha256 != results[0].state_sha256
 
 
 def test_undisturbed_turning_trot_that_plans_again_turns_as_far(tmp_path: Path) -> None:
-    turning = ["command=turn", "duration_s=4.5"]
+    turning = ["command=turn", "duration_s=3.0"]
     once, often = run(tmp_path / "once", *turning), run(tmp_path / "often", *turning, "replanning.period_s=0.2")
     assert often.status is TrialStatus.COMPLETED, often.status_reason
     assert once.distance_m is not None and often.distance_m is not None
     assert often.distance_m == pytest.approx(once.distance_m, abs=0.05)
     assert often.replanning_failures == 0
+    assert once.replannings is None
 
 
 def test_planning_waits_for_all_feet_if_told_to(trot: Planned) -> None:

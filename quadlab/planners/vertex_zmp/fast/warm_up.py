@@ -15,7 +15,7 @@ _DURATION_S = 0.2
 
 @cache
 def load_compiled(config: VertexZmpConfig) -> None:
-    """Solve the smallest problem there is, standing, so that later build and solve times are those of their problems."""
+    """Solve the smallest problem there is, standing, so that later times are those of their problems."""
     feet = np.column_stack([_FEET, np.zeros(len(_FEET))])
     problem = PlanningProblem(
         start=PlanStart(com_position=np.zeros(2), com_velocity=np.zeros(2), yaw=0.0, feet=feet),
