@@ -60,6 +60,9 @@ acceptance: setup
 ## Measure planning and control time on this machine.
 bench: setup
 	$(BIN)/python experiments/bench.py
+	$(BIN)/python experiments/bench_planners.py
+	$(BIN)/python experiments/bench_kinematic_sqp.py
+	$(BIN)/python experiments/bench_controllers.py
 
 ## Redraw the figures of the papers from results/.
 figures: setup
