@@ -138,6 +138,9 @@ class FakePlanner:
 
     answer: PlanningOutcome | None
 
+    def prepare(self) -> None:
+        pass
+
     def build(self, problem: PlanningProblem) -> PlanningProblem:
         if self.answer is None:
             raise PlanningProblemError("start.feet: holds NaN or infinity")
