@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
+import qpsolvers
 from pydantic import Field, field_validator
 
 from quadlab.controllers.controller_config import TrackingControllerConfig
@@ -27,7 +28,7 @@ class LevelledControllerConfig(TrackingControllerConfig):
         formulation: decision variables; all have the same solutions, and the reduced ones are solved fastest.
         method: lexicographic: one active-set method for all levels; cascade: one quadratic program a level, as printed
             in Bellicoso 2016, Eq. (9)-(12).
-        qp_solver: back end of the cascade.
+        qp_solver: back end of the cascade; has to be installed.
         certify: whether each tick is proved optimal (see ``certificate``); it costs about as much as the tick itself.
     """
 
@@ -41,6 +42,13 @@ class LevelledControllerConfig(TrackingControllerConfig):
     @classmethod
     def _unique_names(cls, levels: tuple[LevelConfig, ...]) -> tuple[LevelConfig, ...]:
         return check_level_names(levels)
+
+    @field_validator("qp_solver")
+    @classmethod
+    def _installed(cls, qp_solver: QpSolver) -> QpSolver:
+        if qp_solver not in qpsolvers.available_solvers:
+            raise ValueError(f"{qp_solver} is not installed; installed: {', '.join(qpsolvers.available_solvers)}")
+        return qp_solver
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from quadlab.configuration import part_of
 from quadlab.gaits.gait import contact_schedule, stride_times
 from quadlab.geometry.rotations import yaw_of
 from quadlab.planners.command import waypoints
-from quadlab.planners.planner import Planner, PlanningOutcome
+from quadlab.planners.planner import Planner
 from quadlab.planners.problem import PlanningModel, PlanningProblem, PlanStart
 from quadlab.robots.model import RobotModel
 from quadlab.robots.state import RobotState
@@ -57,9 +57,3 @@ def build_planner(config: TrialConfig) -> Planner:
     planner_type: Any = part_of("planner", config.planner)
     planner: Planner = planner_type(config.planner)
     return planner
-
-
-def plan_motion(config: TrialConfig, robot: RobotModel, state: RobotState) -> PlanningOutcome:
-    """Return the outcome of the configured planner for the trial that starts in ``state``."""
-    planner = build_planner(config)
-    return planner.solve(planner.build(planning_problem(config, robot, state)))

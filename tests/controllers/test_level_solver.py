@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import qpsolvers
 from controller_cases import robot_named, standing_schedule, uniform_plan, with_loads
 from preset_cases import near_rest, preset, resolved
 from pydantic import ValidationError
@@ -77,3 +78,9 @@ def test_telemetry_carries_the_certificate(robot: RobotModel, certify: bool) -> 
 def test_unknown_choices_are_refused(change: dict[str, str]) -> None:
     with pytest.raises(ValidationError, match=next(iter(change))):
         HierarchicalResolver.Config.model_validate({**preset("hierarchical").model_dump(), **change})
+
+
+def test_a_back_end_that_is_not_installed_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(qpsolvers, "available_solvers", ["daqp"])
+    with pytest.raises(ValidationError, match="osqp is not installed; installed: daqp"):
+        HierarchicalResolver.Config.model_validate({**preset("hierarchical").model_dump(), "qp_solver": "osqp"})

@@ -44,6 +44,16 @@ def test_plan_is_that_of_the_literal_program(robot: str, gait_name: str, command
         assert fast.report.costs[name] == pytest.approx(value, rel=0.02, abs=2e-5)
 
 
+@pytest.mark.parametrize("transcription", ["fast", "paper"])
+def test_costs_of_every_iteration_are_reported_by_name(transcription: str) -> None:
+    result = plan(problem("anymal", "trot", COMMANDS["forward"]), transcription=transcription).plan
+    assert result is not None
+    history = result.report.cost_history
+    assert len(history) == result.report.iterations + 1
+    assert history[-1] == pytest.approx(result.report.costs)
+    assert all(costs.keys() == result.report.costs.keys() for costs in history)
+
+
 @pytest.mark.parametrize("steps", [16, 4])
 def test_cost_of_the_walks_of_table_one_is_that_of_the_literal_program(steps: int) -> None:
     walk = next(entry for entry in TABLE_ONE if entry.gait == "walk" and entry.steps == steps)

@@ -105,4 +105,5 @@ def _report(build: Build, solution: Solution) -> PlanReport:
         constraints=constraints,
         costs=dict(solution.costs),
         residuals=dict(solution.residuals),
+        cost_history=[dict(costs) for costs in solution.cost_history],
     )

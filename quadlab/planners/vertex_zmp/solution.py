@@ -22,6 +22,7 @@ class Solution:
         solve_ms: wall time in [ms].
         costs: weighted costs by name.
         residuals: worst violation of each constraint set, in the unit that its name carries.
+        cost_history: weighted costs by name of the first guess and after every iteration, over all attempts.
     """
 
     x: Array
@@ -32,6 +33,7 @@ class Solution:
     solve_ms: float
     costs: Mapping[str, float]
     residuals: Mapping[str, float]
+    cost_history: tuple[Mapping[str, float], ...]
 
 
 class Build(Protocol):

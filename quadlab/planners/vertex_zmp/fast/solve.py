@@ -49,23 +49,25 @@ def solve(prepared: PreparedProgram, guess: Array, config: VertexZmpConfig) -> S
     """
     begin = time.perf_counter()
     program, spent, first = prepared.program, 0, guess
+    iterates: list[Array] = []
     word, infeasible, answer = "limit of iterations", False, None
     for attempt, (name, settings) in enumerate(_attempts(program, config)):
         left = min(settings.max_iterations, config.max_iterations - spent)
         arrays = prepared.arrays if settings.elastic == 0.0 else _without_costs(prepared.arrays)
         answer = minimise(arrays, prepared.plan, prepared.pairs, first, settings._replace(max_iterations=left))
         spent += answer.iterations
+        iterates.append(answer.iterates)
         if settings.elastic > 0.0:
             infeasible = _contradicts(program, answer, config.residual_tolerance)
             first = answer.z if np.isfinite(answer.z).all() else guess
         elif answer.end == CONVERGED:
             word = "converged" if attempt == 0 else f"converged in attempt {attempt + 1} ({name})"
-            return _solution(program, answer, spent, word, True, False, begin)
+            return _solution(program, answer, iterates, spent, word, True, False, begin)
         if infeasible or spent >= config.max_iterations:
             break
     if infeasible:
         word = "constraints contradict each other"
-    return _solution(program, answer, spent, word, False, infeasible, begin)
+    return _solution(program, answer, iterates, spent, word, False, infeasible, begin)
 
 
 def _attempts(program: BilinearProgram, config: VertexZmpConfig) -> Iterator[tuple[str, Settings]]:
@@ -104,6 +106,7 @@ def _contradicts(program: BilinearProgram, answer: Answer, tolerance: float) -> 
 def _solution(
     program: BilinearProgram,
     answer: Answer | None,
+    iterates: list[Array],
     iterations: int,
     word: str,
     converged: bool,
@@ -121,4 +124,5 @@ def _solution(
         solve_ms=elapsed,
         costs=program.costs(z),
         residuals=program.residuals(z),
+        cost_history=tuple(program.costs(iterate) for attempt in iterates for iterate in attempt),
     )

@@ -2,14 +2,13 @@
 
 import time
 from dataclasses import dataclass
-from typing import Any
 
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan, PlanReport
 from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.vertex_zmp.config import VertexZmpConfig
 from quadlab.planners.vertex_zmp.paper.motion import motion_plan
-from quadlab.planners.vertex_zmp.paper.solver import make_solver, run_solver
+from quadlab.planners.vertex_zmp.paper.solver import IpoptSolver, make_solver, run_solver
 from quadlab.planners.vertex_zmp.paper.transcription import Transcription, transcribe
 from quadlab.planners.vertex_zmp.solution import Solution
 
@@ -25,7 +24,7 @@ class PaperBuild:
     """
 
     transcription: Transcription
-    solver: Any
+    solver: IpoptSolver
     build_ms: float
 
     @property

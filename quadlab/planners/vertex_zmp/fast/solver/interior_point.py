@@ -37,6 +37,7 @@ class Answer(NamedTuple):
         end: CONVERGED, STEP_LIMIT or NOT_FINITE.
         iterations, factorisations: how many there were.
         equality, dual, complementarity: largest residuals.
+        iterates: the first guess and z after every iteration, (iterations + 1, n).
     """
 
     z: Array
@@ -46,17 +47,20 @@ class Answer(NamedTuple):
     equality: float
     dual: float
     complementarity: float
+    iterates: Array
 
 
 @compiled
 def _minimise(program: ProgramArrays, plan: KktPlan, pair_products: Array, first: Array, settings: Settings) -> Answer:
     at, step, found, work = _memory(program, plan, pair_products)
     at.z[:] = first
+    iterates = np.empty((settings.max_iterations + 1, len(first)))
     _first_slacks(program, settings, at, found)
     end, factorisations, iteration = STEP_LIMIT, 0, 0
     violation = dual = gap = np.inf
     settled = False  # from then on unknowns are held in place: where costs leave them free, steps wander about
     for iteration in range(settings.max_iterations + 1):
+        iterates[iteration] = at.z
         evaluate(program, at, settings.elastic, found)
         gap = complementarity(program, at)
         violation, dual = largest(found.equality), largest(found.dual)
@@ -83,7 +87,7 @@ def _minimise(program: ProgramArrays, plan: KktPlan, pair_products: Array, first
         primal, dual_length = shortened(primal), shortened(dual_length)
         primal = restrained(program, step, found, violation, primal, settings.largest_growth)
         advance(program, at, step, primal, dual_length)
-    return Answer(at.z, end, iteration, factorisations, violation, dual, gap)
+    return Answer(at.z, end, iteration, factorisations, violation, dual, gap, iterates[: iteration + 1])
 
 
 @compiled
