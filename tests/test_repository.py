@@ -92,7 +92,7 @@ def _imports_of(path: Path) -> set[str]:
 def test_every_third_party_import_is_a_declared_dependency() -> None:
     provided = {**metadata.packages_distributions(), **UNLISTED_MODULES}
     folders = ("quadlab", "experiments", "paper_figures", "tests")
-    own = {*folders, *(path.stem for path in (ROOT / "tests").rglob("*.py"))}
+    own = {*folders, *(path.stem for folder in ("tests", "experiments") for path in (ROOT / folder).rglob("*.py"))}
     for path in [path for folder in folders for path in (ROOT / folder).rglob("*.py")]:
         for name in _imports_of(path) - own:
             distributions = {item.lower().replace("_", "-") for item in provided.get(name, [name])}
