@@ -43,13 +43,17 @@ class PartConfig(Protocol):
         ...
 
 
-class ControllerConfig(PartConfig, Protocol):
-    """What the configurations of all controllers have in common."""
+class NamedPartConfig(PartConfig, Protocol):
+    """A part of which several files may be of one kind."""
 
     @property
     def name(self) -> str:
         """What results call it."""
         ...
+
+
+class ControllerConfig(NamedPartConfig, Protocol):
+    """What the configurations of all controllers have in common."""
 
     @property
     def rate_hz(self) -> float:
@@ -72,7 +76,7 @@ class TrialConfig(StrictModel):
     robot: RobotConfig
     gait: GaitConfig
     command: CommandConfig
-    planner: Annotated[PartConfig, PartOf("planner")]
+    planner: Annotated[NamedPartConfig, PartOf("planner")]
     controller: Annotated[ControllerConfig, PartOf("controller")]
     estimator: Annotated[PartConfig, PartOf("estimator")]
     scenario: ScenarioConfig

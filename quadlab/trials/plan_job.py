@@ -52,6 +52,7 @@ def run_plan_job(config: TrialConfig, options: RunOptions) -> PlanJobOutcome:
         simulator = Simulator(robot, config.scenario, config.simulation, config.seed)
         state = Observer(config, robot, simulator).observe(simulator.reset()).state
         planner = build_planner(config)
+        planner.prepare()
         outcome = planner.solve(planner.build(planning_problem(config, robot, state)))
     write_text(directory / CONFIG_FILE, yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False))
     (directory / PLAN_FILE).unlink(missing_ok=True)

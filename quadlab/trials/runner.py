@@ -184,7 +184,7 @@ def _result(config: TrialConfig, ending: Ending, numbers: dict[str, Any]) -> Tri
         status_reason=ending.reason,
         robot=config.robot.name,
         gait=config.gait.name,
-        planner=config.planner.kind,
+        planner=config.planner.name,
         controller=config.controller.name,
         estimator=config.estimator.kind,
         scenario=config.scenario.name,

@@ -68,6 +68,7 @@ class KinematicSqpConfig(StrictModel):
     """Settings of the kinematic planner.
 
     Attributes:
+        name: of the planner in results; several files may be of one kind.
         samples_per_cycle: samples of a cycle with steps.
         samples_per_rest: largest number of samples of a stance before, between or after the steps.
         clearance_m: height of a foot in the middle of its swing in [m].
@@ -82,6 +83,7 @@ class KinematicSqpConfig(StrictModel):
     """
 
     kind: Literal["kinematic_sqp"]
+    name: str
     samples_per_cycle: Annotated[int, Field(ge=4)]
     samples_per_rest: Annotated[int, Field(ge=2)]
     clearance_m: NonNegative

@@ -12,6 +12,7 @@ class VertexZmpConfig(StrictModel):
     """Settings of the vertex-ZMP planner.
 
     Attributes:
+        name: of the planner in results; several files may be of one kind.
         transcription: ``paper`` is the literal program of Winkler 2017 in CasADi for Ipopt; ``fast`` is the same
             problem reduced: exact pendulum motion, loads of feet in contact only, own solver; point feet only.
         polynomial_duration_s: longest polynomial T_k of the CoM spline in [s]; for ``fast`` the longest time between
@@ -30,6 +31,7 @@ class VertexZmpConfig(StrictModel):
     """
 
     kind: Literal["vertex_zmp"]
+    name: str
     transcription: Literal["paper", "fast"]
     polynomial_duration_s: Positive
     robustness_weight: NonNegative

@@ -12,6 +12,7 @@ class ZmpSplineConfig(StrictModel):
     """Settings of the ZMP spline planner.
 
     Attributes:
+        name: of the planner in results; several files may be of one kind.
         segment_duration_s: longest quintic segment of the CoM in [s]; every phase has one or more.
         sample_period_s: largest distance of the times at which constraints hold in [s].
         support_margin_m: how far inside the support polygon the ZMP stays in [m].
@@ -29,6 +30,7 @@ class ZmpSplineConfig(StrictModel):
     """
 
     kind: Literal["zmp_spline"]
+    name: str
     segment_duration_s: Positive
     sample_period_s: Positive
     support_margin_m: NonNegative
