@@ -34,6 +34,9 @@ COLUMNS = [
     "foot_slip_max_mm",
     "torque_max_nm",
     "control_fallbacks",
+    "replannings",
+    "replanning_failures",
+    "replanning_median_ms",
     "state_sha256",
     "status_reason",
 ]
