@@ -21,6 +21,7 @@ from quadlab.trials.job import run_job
 from quadlab.trials.progress import terminal_progress
 from quadlab.trials.report import job_report
 
+PICTURE = Path("results/demo/strip.png")
 OVERRIDES = (
     "robot=anymal_b",
     "gait=trot",
@@ -35,15 +36,16 @@ def main() -> int:
     """Run, draw and film the demonstration; return 0 unless the program failed."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tag", default="demo", help="folder below results/")
-    tag = parser.parse_args().tag
+    parser.add_argument("--picture", action="store_true", help="replace the picture in README.md by the new strip")
+    arguments = parser.parse_args()
     try:
-        return run_demo(tag)
+        return run_demo(arguments.tag, arguments.picture)
     except QuadlabError as error:
         sys.stderr.write(f"quadlab: {error}\n")
         return 2
 
 
-def run_demo(tag: str) -> int:
+def run_demo(tag: str, replace_picture: bool) -> int:
     """Run the demonstration into ``results/<tag>`` and print status, key numbers and paths."""
     outcome = run_job(*split_document(compose_document([*OVERRIDES, f"tag={tag}"])), terminal_progress())
     if outcome.failure:
@@ -52,7 +54,8 @@ def run_demo(tag: str) -> int:
     sys.stdout.write(job_report(outcome))
     show(plot_trial(outcome.directory))
     rendered = render_trial_log(outcome.directory)
-    shutil.copyfile(rendered.strip, outcome.directory.parent / rendered.strip.name)  # the picture in README.md
+    if replace_picture:
+        shutil.copyfile(rendered.strip, PICTURE)
     show([rendered.video, rendered.strip])
     return 0
 
