@@ -28,6 +28,13 @@ def test_every_robot_stands_still(robot: str, tmp_path: Path) -> None:
     assert result.control_fallbacks == 0
 
 
+@pytest.mark.parametrize("robot", robot_names())
+def test_every_robot_trots(robot: str, tmp_path: Path) -> None:
+    result = run(tmp_path, f"robot={robot}", "gait=trot", "command.x_m=0.1", "duration_s=3.6")
+    assert result.status is TrialStatus.COMPLETED, result.status_reason
+    assert result.com_error_max_mm is not None and result.com_error_max_mm < 15.0
+
+
 @pytest.mark.parametrize("gait", ["walk", "trot"])
 @pytest.mark.parametrize("robot", ["anymal_b", "hyq"])
 def test_gait_from_a_perturbed_start(robot: str, gait: str, tmp_path: Path) -> None:
