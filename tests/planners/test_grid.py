@@ -6,7 +6,8 @@ from planning_cases import COMMANDS, problem
 
 from quadlab.gaits.schedule import ContactSchedule
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex
-from quadlab.planners.vertex_zmp.paper.grid import polynomial_grid
+from quadlab.planners.vertex_zmp.grid import time_grid
+from quadlab.planners.vertex_zmp.paper.costs.robustness import simpson_weights
 from quadlab.planners.vertex_zmp.paper.layout import BlockLayout
 
 
@@ -18,17 +19,17 @@ def schedule_of(gait_name: str) -> ContactSchedule:
 @pytest.mark.parametrize("longest_s", [0.04, 0.1, 10.0])
 def test_polynomials_tile_the_schedule_and_no_phase_switch_is_inside_one(gait_name: str, longest_s: float) -> None:
     schedule = schedule_of(gait_name)
-    grid = polynomial_grid(schedule, longest_s)
+    grid = time_grid(schedule, longest_s, 3)
     np.testing.assert_allclose(np.diff(grid.knots_s), grid.durations_s, atol=1e-12)
     assert grid.knots_s[-1] == pytest.approx(schedule.duration_s)
     assert grid.durations_s.max() <= longest_s + 1e-9
     for switch in schedule.switch_times_s:
         assert np.abs(grid.knots_s - switch).min() < 1e-9
-    assert grid.node_weights_s.sum() == pytest.approx(schedule.duration_s)
+    assert simpson_weights(grid).sum() == pytest.approx(schedule.duration_s)
 
 
 def test_load_nodes_are_shared_within_a_phase_and_doubled_at_switches() -> None:
-    grid = polynomial_grid(ContactSchedule(np.array([0.2, 0.1]), np.ones((2, 4), dtype=bool)), 0.1)
+    grid = time_grid(ContactSchedule(np.array([0.2, 0.1]), np.ones((2, 4), dtype=bool)), 0.1, 3)
     np.testing.assert_array_equal(grid.nodes, [[0, 1, 2], [2, 3, 4], [5, 6, 7]])
     np.testing.assert_array_equal(grid.node_phases, [0] * 5 + [1] * 3)
 

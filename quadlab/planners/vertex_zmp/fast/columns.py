@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 
 from quadlab.gaits.schedule import BoolArray
-from quadlab.planners.vertex_zmp.fast.grid import LoadGrid
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex, IntArray
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Columns:
         footholds: numbering of the stances.
     """
 
-    grid: LoadGrid
+    grid: TimeGrid
     footholds: FootholdIndex
 
     @cached_property

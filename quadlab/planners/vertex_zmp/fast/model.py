@@ -8,9 +8,9 @@ from quadlab.geometry.rotations import Array
 from quadlab.geometry.splines import PiecewisePolynomial
 from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.vertex_zmp.fast.columns import Columns
-from quadlab.planners.vertex_zmp.fast.grid import LoadGrid
 from quadlab.planners.vertex_zmp.fast.tension_spline import TensionSpline
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex, IntArray
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class ReducedModel:
 
     problem: PlanningProblem
     heading: PiecewisePolynomial
-    grid: LoadGrid
+    grid: TimeGrid
     footholds: FootholdIndex
     columns: Columns
     spline: TensionSpline

@@ -18,11 +18,14 @@ from quadlab.planners.vertex_zmp.fast.costs.com_acceleration import com_accelera
 from quadlab.planners.vertex_zmp.fast.costs.nominal_foothold import nominal_foothold
 from quadlab.planners.vertex_zmp.fast.costs.robustness import robustness
 from quadlab.planners.vertex_zmp.fast.costs.waypoint import waypoint
-from quadlab.planners.vertex_zmp.fast.grid import load_grid
 from quadlab.planners.vertex_zmp.fast.model import ReducedModel
 from quadlab.planners.vertex_zmp.fast.program import BilinearProgram
 from quadlab.planners.vertex_zmp.fast.tension_spline import TensionSpline
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex
+from quadlab.planners.vertex_zmp.grid import time_grid
+
+NODES_PER_INTERVAL = 2
+"""Load nodes at both ends of each interval; loads are linear in time between them."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +71,7 @@ def transcribe(problem: PlanningProblem, config: VertexZmpConfig) -> ReducedTran
 
 def reduced_model(problem: PlanningProblem, config: VertexZmpConfig) -> ReducedModel:
     """Return the grid, the numbering and the pendulum of a problem."""
-    grid = load_grid(problem.schedule, config.polynomial_duration_s)
+    grid = time_grid(problem.schedule, config.polynomial_duration_s, NODES_PER_INTERVAL)
     footholds = FootholdIndex(problem.schedule)
     return ReducedModel(
         problem=problem,

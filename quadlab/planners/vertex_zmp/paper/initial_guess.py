@@ -6,14 +6,14 @@ from quadlab.geometry.rotations import Array
 from quadlab.geometry.splines import PiecewisePolynomial
 from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 from quadlab.planners.vertex_zmp.paper.layout import BlockLayout
 from quadlab.planners.vertex_zmp.paper.symbols import COEFFICIENT_COUNT, vertex_contacts
 
 
 def sliding_guess(
     problem: PlanningProblem,
-    grid: PolynomialGrid,
+    grid: TimeGrid,
     footholds: FootholdIndex,
     heading: PiecewisePolynomial,
     layout: BlockLayout,

@@ -9,7 +9,7 @@ import numpy as np
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex, IntArray
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 from quadlab.planners.vertex_zmp.paper.layout import BlockLayout
 
 QUARTIC_ORDER = 4
@@ -70,12 +70,12 @@ class Symbols:
     stance_directions: Any
 
 
-def vertex_contacts(grid: PolynomialGrid, vertices: int) -> BoolArray:
+def vertex_contacts(grid: TimeGrid, vertices: int) -> BoolArray:
     """Return which vertices of feet may carry load at each node, (N, F V)."""
     return np.repeat(grid.node_contacts, vertices, axis=1)
 
 
-def variable_layout(grid: PolynomialGrid, footholds: FootholdIndex, vertices: int) -> BlockLayout:
+def variable_layout(grid: TimeGrid, footholds: FootholdIndex, vertices: int) -> BlockLayout:
     """Return the blocks of the decision vector w = (w_c, w_p, w_u) for feet with so many vertices."""
     return BlockLayout(
         {
@@ -87,7 +87,7 @@ def variable_layout(grid: PolynomialGrid, footholds: FootholdIndex, vertices: in
     )
 
 
-def parameter_layout(grid: PolynomialGrid, footholds: FootholdIndex, waypoint_count: int) -> BlockLayout:
+def parameter_layout(grid: TimeGrid, footholds: FootholdIndex, waypoint_count: int) -> BlockLayout:
     """Return the blocks of what changes from one problem to the next while schedule and robot stay."""
     return BlockLayout(
         {
@@ -104,7 +104,7 @@ def parameter_layout(grid: PolynomialGrid, footholds: FootholdIndex, waypoint_co
 
 
 def make_symbols(
-    grid: PolynomialGrid,
+    grid: TimeGrid,
     footholds: FootholdIndex,
     vertices: int,
     layouts: tuple[BlockLayout, BlockLayout],

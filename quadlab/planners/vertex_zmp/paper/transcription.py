@@ -13,6 +13,7 @@ from quadlab.planners.heading import heading_spline
 from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.vertex_zmp.config import VertexZmpConfig
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex
+from quadlab.planners.vertex_zmp.grid import TimeGrid, time_grid
 from quadlab.planners.vertex_zmp.paper.constraints.boundary import goal_state, start_state
 from quadlab.planners.vertex_zmp.paper.constraints.lip_dynamics import lip_dynamics
 from quadlab.planners.vertex_zmp.paper.constraints.quartic_spline import com_continuity
@@ -23,11 +24,13 @@ from quadlab.planners.vertex_zmp.paper.costs.foot_yaw import foot_yaw
 from quadlab.planners.vertex_zmp.paper.costs.nominal_foothold import nominal_foothold
 from quadlab.planners.vertex_zmp.paper.costs.robustness import robustness
 from quadlab.planners.vertex_zmp.paper.costs.waypoint import waypoint
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid, polynomial_grid
 from quadlab.planners.vertex_zmp.paper.initial_guess import sliding_guess
 from quadlab.planners.vertex_zmp.paper.layout import BlockLayout
 from quadlab.planners.vertex_zmp.paper.symbols import Symbols, make_symbols, parameter_layout, variable_layout
 from quadlab.planners.vertex_zmp.paper.terms import Constraint, Cost
+
+NODES_PER_POLYNOMIAL = 3
+"""Load nodes at start, middle and end of each polynomial."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +50,7 @@ class Transcription:
     """
 
     problem: PlanningProblem
-    grid: PolynomialGrid
+    grid: TimeGrid
     footholds: FootholdIndex
     heading: PiecewisePolynomial
     layout: BlockLayout
@@ -78,7 +81,7 @@ class Transcription:
 
 def transcribe(problem: PlanningProblem, config: VertexZmpConfig) -> Transcription:
     """Return the program of a well-formed problem."""
-    grid = polynomial_grid(problem.schedule, config.polynomial_duration_s)
+    grid = time_grid(problem.schedule, config.polynomial_duration_s, NODES_PER_POLYNOMIAL)
     footholds = FootholdIndex(problem.schedule)
     heading = heading_spline(problem.waypoints)
     passed = slice(1, -1)  # waypoints between start and goal
@@ -112,7 +115,7 @@ def transcribe(problem: PlanningProblem, config: VertexZmpConfig) -> Transcripti
 
 def _constraints(
     symbols: Symbols,
-    grid: PolynomialGrid,
+    grid: TimeGrid,
     footholds: FootholdIndex,
     problem: PlanningProblem,
     config: VertexZmpConfig,
@@ -136,7 +139,7 @@ def _lower_bounds(layout: BlockLayout) -> Array:
 
 def _parameter_values(
     problem: PlanningProblem,
-    grid: PolynomialGrid,
+    grid: TimeGrid,
     footholds: FootholdIndex,
     heading: PiecewisePolynomial,
     passed: slice,

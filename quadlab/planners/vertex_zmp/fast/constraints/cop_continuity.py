@@ -12,7 +12,8 @@ def cop_continuity(model: ReducedModel) -> Equalities:
     They share a load node; load_balance holds for the interval that begins there, and this carries it over to the
     one that ends. Position and velocity need no constraint: neighbouring intervals share their state.
     """
-    after = model.grid.shared_knots
+    nodes = model.grid.nodes
+    after = np.flatnonzero(nodes[1:, 0] == nodes[:-1, -1]) + 1  # intervals that share their first node
     before = after - 1
     ends = model.spline.cop_weights(before, np.ones(len(after)))
     starts = model.spline.cop_weights(after, np.zeros(len(after)))

@@ -6,6 +6,7 @@ from quadlab.geometry.rotations import Array
 from quadlab.planners.vertex_zmp.fast.model import ReducedModel
 from quadlab.planners.vertex_zmp.fast.rows import Equalities, Products, Rows, on_both_axes
 from quadlab.planners.vertex_zmp.footholds import IntArray
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 
 
 def load_balance(model: ReducedModel) -> Equalities:
@@ -17,7 +18,7 @@ def load_balance(model: ReducedModel) -> Equalities:
 
     Deviation: the exact pendulum in place of a quartic that satisfies it at three instants.
     """
-    intervals, fractions = model.grid.node_places
+    intervals, fractions = _node_places(model.grid)
     columns = model.knot_columns(intervals)
     values = model.spline.cop_weights(intervals, fractions)
     last = _stance_columns(model)[np.arange(len(intervals)), model.columns.last_feet]
@@ -26,6 +27,15 @@ def load_balance(model: ReducedModel) -> Equalities:
     scales = model.spline.row_scales(intervals)
     both = on_both_axes(columns, scales[:, None] * values)
     return Equalities(Rows("load_balance_m", *both, np.zeros(len(both[0]))), _load_products(model, last, scales))
+
+
+def _node_places(grid: TimeGrid) -> tuple[IntArray, Array]:
+    """Return one (interval, elapsed fraction) for each node, both (N,)."""
+    intervals = np.empty(len(grid.node_phases), dtype=np.intp)
+    fractions = np.zeros(len(grid.node_phases))
+    intervals[grid.nodes[:, 1]], fractions[grid.nodes[:, 1]] = np.arange(grid.count), 1.0
+    intervals[grid.nodes[:, 0]], fractions[grid.nodes[:, 0]] = np.arange(grid.count), 0.0
+    return intervals, fractions
 
 
 def _stance_columns(model: ReducedModel) -> IntArray:

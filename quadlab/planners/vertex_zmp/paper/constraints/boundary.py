@@ -3,7 +3,7 @@
 import casadi as ca
 import numpy as np
 
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 from quadlab.planners.vertex_zmp.paper.symbols import Symbols
 from quadlab.planners.vertex_zmp.paper.terms import Constraint, equality
 
@@ -18,7 +18,7 @@ def start_state(symbols: Symbols) -> Constraint:
     return equality("start_state", ca.vertcat(position - symbols.start_com, velocity - symbols.start_velocity))
 
 
-def goal_state(symbols: Symbols, grid: PolynomialGrid) -> Constraint:
+def goal_state(symbols: Symbols, grid: TimeGrid) -> Constraint:
     """Return x(T) - x_T = 0: CoM at the goal in [m], at rest in [m/s], Winkler 2017, Eq. (2e)."""
     last, one = np.array([grid.count - 1]), np.array([1.0])
     position, velocity = symbols.com.at(last, one), symbols.com.at(last, one, 1)

@@ -8,12 +8,12 @@ import numpy as np
 from quadlab.geometry.rotations import Array
 from quadlab.planners.problem import PlanningModel
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 from quadlab.planners.vertex_zmp.paper.symbols import Symbols
 from quadlab.planners.vertex_zmp.paper.terms import Constraint, equality
 
 
-def lip_dynamics(symbols: Symbols, grid: PolynomialGrid, footholds: FootholdIndex, model: PlanningModel) -> Constraint:
+def lip_dynamics(symbols: Symbols, grid: TimeGrid, footholds: FootholdIndex, model: PlanningModel) -> Constraint:
     """Return the dynamics at the start, middle and end of each polynomial, Winkler 2017, Eq. (12) and Appendix B.
 
     c_ddot[t] = g / h (c[t] - u[t]) for t in {t_k, t_k + T_k / 2, t_{k+1}}; the paper prints (t_{k+1} - t_k) / 2 for
@@ -30,7 +30,7 @@ def lip_dynamics(symbols: Symbols, grid: PolynomialGrid, footholds: FootholdInde
     return equality("lip_dynamics_m", ca.vertcat(*errors))
 
 
-def centre_of_pressure(symbols: Symbols, grid: PolynomialGrid, footholds: FootholdIndex, vertices: Array) -> Any:
+def centre_of_pressure(symbols: Symbols, grid: TimeGrid, footholds: FootholdIndex, vertices: Array) -> Any:
     """Return the CoP at the load nodes, CasADi (2, N) in [m].
 
     u = sum_f sum_v lambda_v^f (p^f + R(alpha^f) v_v), Eq. (17), with the vertices v_v (V, 2) in the frame of the foot.

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 from quadlab.planners.vertex_zmp.paper.symbols import Symbols
 from quadlab.planners.vertex_zmp.paper.terms import Constraint, equality
 
 
-def com_continuity(symbols: Symbols, grid: PolynomialGrid) -> list[Constraint]:
+def com_continuity(symbols: Symbols, grid: TimeGrid) -> list[Constraint]:
     """Return equal position and velocity at each junction, Winkler 2017, Eq. (10).
 
     x[t_{k+1}^-] = x[t_{k+1}^+]; positions in [m], velocities in [m/s].

@@ -6,13 +6,13 @@ import numpy as np
 from quadlab.geometry.rotations import Array
 from quadlab.planners.problem import PlanningModel
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 from quadlab.planners.vertex_zmp.paper.symbols import Symbols
 from quadlab.planners.vertex_zmp.paper.terms import Constraint, interval
 
 
 def range_of_motion(
-    symbols: Symbols, grid: PolynomialGrid, footholds: FootholdIndex, model: PlanningModel, margin_m: float
+    symbols: Symbols, grid: TimeGrid, footholds: FootholdIndex, model: PlanningModel, margin_m: float
 ) -> Constraint:
     """Return that every foot is in a box that moves with the CoM, Winkler 2017, Eq. (15), in [m].
 
@@ -35,7 +35,7 @@ def range_of_motion(
     return interval("range_of_motion_m", ca.vertcat(*offsets), nominal - reach, nominal + reach)
 
 
-def range_of_motion_times(grid: PolynomialGrid) -> Array:
+def range_of_motion_times(grid: TimeGrid) -> Array:
     """Return when the box is enforced: middle and end of each polynomial, (2 n,) in [s]."""
     return np.stack([grid.starts_s + 0.5 * grid.durations_s, grid.knots_s[1:]], axis=1).ravel()
 

@@ -3,7 +3,7 @@
 import casadi as ca
 import numpy as np
 
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 from quadlab.planners.vertex_zmp.paper.symbols import Symbols
 from quadlab.planners.vertex_zmp.paper.terms import Constraint, equality
 
@@ -17,7 +17,7 @@ def load_sum(symbols: Symbols) -> Constraint:
     return equality("load_sum", ca.sum1(symbols.loads) - 1.0)
 
 
-def load_between_nodes(symbols: Symbols, grid: PolynomialGrid) -> Constraint:
+def load_between_nodes(symbols: Symbols, grid: TimeGrid) -> Constraint:
     """Return that no load is negative between the nodes either, no unit.
 
     Addition to the paper. Over a polynomial lambda is the parabola through its three nodes; in Bernstein form its

@@ -3,12 +3,12 @@
 import casadi as ca
 import numpy as np
 
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 from quadlab.planners.vertex_zmp.paper.symbols import Symbols
 from quadlab.planners.vertex_zmp.paper.terms import Cost
 
 
-def com_acceleration(symbols: Symbols, grid: PolynomialGrid, weight: float) -> Cost:
+def com_acceleration(symbols: Symbols, grid: TimeGrid, weight: float) -> Cost:
     """Return the squared acceleration of the CoM over time, in [m^2/s^3].
 
     J = int ||c_ddot||^2 dt, by Simpson's rule over the start, middle and end of each polynomial.

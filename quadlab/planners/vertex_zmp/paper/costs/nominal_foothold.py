@@ -4,13 +4,13 @@ import casadi as ca
 
 from quadlab.planners.problem import PlanningModel
 from quadlab.planners.vertex_zmp.footholds import FootholdIndex
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 from quadlab.planners.vertex_zmp.paper.symbols import Symbols
 from quadlab.planners.vertex_zmp.paper.terms import Cost
 
 
 def nominal_foothold(
-    symbols: Symbols, grid: PolynomialGrid, footholds: FootholdIndex, model: PlanningModel, weight: float
+    symbols: Symbols, grid: TimeGrid, footholds: FootholdIndex, model: PlanningModel, weight: float
 ) -> Cost:
     """Return the distance of each foothold from its nominal place at the middle of its stance, in [m^2].
 

@@ -3,12 +3,12 @@
 import casadi as ca
 
 from quadlab.geometry.rotations import Array
-from quadlab.planners.vertex_zmp.paper.grid import PolynomialGrid
+from quadlab.planners.vertex_zmp.grid import TimeGrid
 from quadlab.planners.vertex_zmp.paper.symbols import Symbols
 from quadlab.planners.vertex_zmp.paper.terms import Cost
 
 
-def waypoint(symbols: Symbols, grid: PolynomialGrid, times_s: Array, weight: float) -> Cost:
+def waypoint(symbols: Symbols, grid: TimeGrid, times_s: Array, weight: float) -> Cost:
     """Return the distance of the CoM from each waypoint between start and goal at its time, in [m^2].
 
     J = sum_i ||c(t_i) - w_i||^2; an addition to Winkler 2017, which knows only the goal.

@@ -1,4 +1,4 @@
-"""The time grid of the reduced program: intervals aligned with phases, and load nodes at their ends."""
+"""The time grid of the program: intervals aligned with phases, and load nodes in them."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,15 +13,17 @@ _TIME_TOLERANCE = 1e-9  # [s]
 
 
 @dataclass(frozen=True)
-class LoadGrid:
-    """n intervals, each within one phase, and N load nodes; loads are linear in time between two nodes.
+class TimeGrid:
+    """n intervals, each within one phase, and N load nodes.
 
-    Neighbouring intervals of a phase share a node; a contact switch has one node at either side.
+    Deviation from Winkler 2017: there polynomials and load nodes (every 20 ms) ignore the phases. Here each phase is
+    divided into equal intervals, so that the feet in contact are constant over an interval. Neighbouring intervals of
+    a phase share a node; a contact switch has one node at either side.
 
     Attributes:
         schedule: contact flags.
-        starts_s, durations_s: start and length of each interval, (n,) in [s].
-        nodes: load nodes at the start and the end of each interval, (n, 2).
+        starts_s, durations_s: start and length of each interval, t_k and T_k, (n,) in [s].
+        nodes: load nodes of each interval, equally spaced from its start to its end, (n, k).
         node_phases: phase of each load node, (N,).
     """
 
@@ -43,23 +45,9 @@ class LoadGrid:
 
     @cached_property
     def node_contacts(self) -> BoolArray:
-        """Which feet carry load at each node, (N, feet)."""
+        """Which feet may carry load at each node, (N, feet): c^f of Eq. (19b)."""
         flags: BoolArray = self.schedule.contacts[self.node_phases]
         return flags
-
-    @cached_property
-    def node_places(self) -> tuple[IntArray, Array]:
-        """One (interval, elapsed fraction) for each node, both (N,)."""
-        intervals = np.empty(len(self.node_phases), dtype=np.intp)
-        fractions = np.zeros(len(self.node_phases))
-        intervals[self.nodes[:, 1]], fractions[self.nodes[:, 1]] = np.arange(self.count), 1.0
-        intervals[self.nodes[:, 0]], fractions[self.nodes[:, 0]] = np.arange(self.count), 0.0
-        return intervals, fractions
-
-    @cached_property
-    def shared_knots(self) -> IntArray:
-        """Intervals whose first node is the last node of the interval before."""
-        return np.flatnonzero(self.nodes[1:, 0] == self.nodes[:-1, 1]) + 1
 
     def locate(self, times_s: Array) -> tuple[IntArray, Array]:
         """Return (interval, elapsed fraction in [0, 1]) at ``times_s``, both (s,)."""
@@ -68,16 +56,24 @@ class LoadGrid:
         return piece, np.clip((times_s - self.starts_s[piece]) / self.durations_s[piece], 0.0, 1.0)
 
 
-def load_grid(schedule: ContactSchedule, longest_s: float) -> LoadGrid:
-    """Return the grid whose intervals last at most ``longest_s`` in [s]."""
+def time_grid(schedule: ContactSchedule, longest_s: float, nodes_per_interval: int) -> TimeGrid:
+    """Return the grid of ``schedule``.
+
+    Args:
+        schedule: contact flags.
+        longest_s: longest interval in [s].
+        nodes_per_interval: load nodes of an interval, both ends included, at least 2.
+    """
     counts = np.maximum(np.ceil(schedule.durations_s / longest_s - 1e-9).astype(int), 1)
     durations = np.repeat(schedule.durations_s / counts, counts)
     within = np.arange(len(durations)) - np.repeat(np.cumsum(counts) - counts, counts)
-    first = np.arange(len(durations)) + np.repeat(np.arange(len(counts)), counts)
-    return LoadGrid(
+    steps = nodes_per_interval - 1
+    nodes_per_phase = steps * counts + 1
+    first = np.repeat(np.cumsum(nodes_per_phase) - nodes_per_phase, counts) + steps * within
+    return TimeGrid(
         schedule=schedule,
         starts_s=np.repeat(schedule.switch_times_s[:-1], counts) + within * durations,
         durations_s=durations,
-        nodes=np.stack([first, first + 1], axis=1),
-        node_phases=np.repeat(np.arange(len(counts)), counts + 1),
+        nodes=first[:, None] + np.arange(nodes_per_interval),
+        node_phases=np.repeat(np.arange(len(counts)), nodes_per_phase),
     )
