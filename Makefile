@@ -17,7 +17,7 @@ export MKL_NUM_THREADS := 1
 PYTEST_ARGS ?= -n auto
 TAG ?= demo
 
-.PHONY: setup system test lint format demo acceptance bench figures lock wheel clean
+.PHONY: setup system test lint format demo acceptance bench reproduce figures lock wheel clean
 
 ## Install the locked packages and quadlab itself; does nothing if that was done.
 setup: $(STAMP)
@@ -55,7 +55,7 @@ demo: setup system
 
 ## Run every acceptance trial and compare with its limits.
 acceptance: setup
-	$(BIN)/python experiments/acceptance.py
+	$(BIN)/python experiments/run_study.py acceptance
 
 ## Measure planning and control time on this machine.
 bench: setup
@@ -64,7 +64,11 @@ bench: setup
 	$(BIN)/python experiments/bench_kinematic_sqp.py
 	$(BIN)/python experiments/bench_controllers.py
 
-## Redraw the figures of the papers from results/.
+## Run every experiment of the papers that was not run yet, and redraw their tables and figures.
+reproduce: setup system
+	$(BIN)/python experiments/reproduce.py paper=all
+
+## Redraw the tables and figures of the papers from results/, without running anything.
 figures: setup
 	$(BIN)/python -m paper_figures
 

@@ -1,27 +1,23 @@
-"""Redraw every figure: ``python -m paper_figures``; each module below this package that has ``draw`` is a figure."""
+"""Redraw tables and figures from results/: ``python -m paper_figures [names ...]``, e.g. gehring2017 or figure6."""
 
-import importlib
-import pkgutil
 import sys
-from pathlib import Path
 
-import paper_figures
-from quadlab.plotting.figure_files import save_figure
+from paper_figures.gallery import artefact_scripts
+from paper_figures.reproduction import FOLDER, draw_all
+from paper_figures.summary import write_summary
+from quadlab.analysis.study_results import StudyResults
+from quadlab.studies.progress import StudyProgress
 
-FOLDER = Path(__file__).parent
 
-
-def main() -> int:
-    """Draw all figures beside their scripts and print where they are."""
-    for module in pkgutil.walk_packages(paper_figures.__path__, "paper_figures."):
-        if module.ispkg or module.name.endswith("__main__"):
-            continue
-        script = importlib.import_module(module.name)
-        _, paper, artefact = module.name.split(".")
-        for path in save_figure(script.draw(), FOLDER / paper, artefact):
-            sys.stdout.write(f"{path.relative_to(FOLDER.parent)}\n")
-    return 0
+def main(names: list[str]) -> int:
+    """Draw the artefacts whose names contain one of ``names`` (all of them if none are given) and say where."""
+    results = StudyResults(FOLDER.parent / "results")
+    progress = StudyProgress()
+    missing = draw_all(artefact_scripts(names), results, progress)
+    for path in write_summary(artefact_scripts([]), results):
+        progress.say(str(path.relative_to(FOLDER.parent)))
+    return 1 if missing else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

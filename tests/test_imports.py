@@ -20,6 +20,7 @@ ORDER = (
     "trials",
     "analysis",
     "plotting",
+    "studies",
 )
 BASE = {"errors", "configuration", "paths"}
 OWNERS = {"mujoco": "simulation", "omegaconf": "trials", "hydra": "trials"}

@@ -1,0 +1,11 @@
+"""Run studies, conf/study/<name>.yaml, into results/<name>/: python experiments/run_study.py acceptance [--jobs 2].
+
+What was done before is not run again. Exit code 1 if a job ended in an error of the program; falls are rows.
+"""
+
+import sys
+
+from quadlab.studies.main import main
+
+if __name__ == "__main__":
+    sys.exit(main())

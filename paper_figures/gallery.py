@@ -1,0 +1,73 @@
+"""The scripts of all artefacts, found below this package.
+
+Each is a module ``paper_figures/<paper>/<artefact>.py`` with
+
+- ``ARTEFACT``: what it is and from which studies it is drawn,
+- ``draw(results)``: the figure,
+- ``numbers(results)``: what is drawn, as a table,
+- ``claims(results)``: what the paper says, beside what was measured.
+"""
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+import paper_figures
+from quadlab.analysis.artefact import Artefact, Claim
+from quadlab.analysis.study_results import StudyResults
+from quadlab.plotting.figure_files import save_figure
+from quadlab.trials.files import write_text
+
+FLOAT_FORMAT = "%.6g"
+
+
+@dataclass(frozen=True)
+class ArtefactScript:
+    """One script.
+
+    Attributes:
+        paper: folder, e.g. "gehring2017".
+        name: module, e.g. "figure6_plank".
+        artefact: what it is.
+        draw, numbers, claims: its functions of the results.
+    """
+
+    paper: str
+    name: str
+    artefact: Artefact
+    draw: Callable[[StudyResults], Figure]
+    numbers: Callable[[StudyResults], pd.DataFrame]
+    claims: Callable[[StudyResults], Sequence[Claim]]
+
+    @property
+    def command(self) -> str:
+        """What makes it from nothing."""
+        return f"python experiments/reproduce.py paper={self.paper} artefact={self.name}"
+
+
+def artefact_scripts(names: Sequence[str]) -> list[ArtefactScript]:
+    """Return all scripts whose ``<paper>.<module>`` contains one of ``names``, or all if none are given."""
+    found = []
+    for module in pkgutil.walk_packages(paper_figures.__path__, "paper_figures."):
+        _, paper, *rest = module.name.split(".")
+        if rest and (not names or any(name in f"{paper}.{rest[0]}" for name in names)):
+            script = importlib.import_module(module.name)
+            found.append(ArtefactScript(paper, rest[0], script.ARTEFACT, script.draw, script.numbers, script.claims))
+    return found
+
+
+def draw_artefact(script: ArtefactScript, results: StudyResults, folder: Path) -> list[Path]:
+    """Write the figure as PDF and PNG and its numbers as CSV into ``<folder>/<paper>/`` and return the paths.
+
+    Raises:
+        LogError: if a study that it needs has not been run.
+    """
+    paths = save_figure(script.draw(results), folder / script.paper, script.name)
+    table = folder / script.paper / f"{script.name}.csv"
+    write_text(table, script.numbers(results).to_csv(index=False, float_format=FLOAT_FORMAT))
+    return [*paths, table]

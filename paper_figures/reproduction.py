@@ -1,0 +1,110 @@
+"""From nothing to every table and figure: runs the studies that are missing, draws, and says what became of it."""
+
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Literal
+
+from pydantic import Field, ValidationError
+
+from paper_figures.gallery import ArtefactScript, artefact_scripts, draw_artefact
+from paper_figures.summary import judge, write_summary
+from quadlab.analysis.study_results import StudyResults
+from quadlab.configuration import StrictModel
+from quadlab.errors import ConfigurationError, QuadlabError
+from quadlab.studies.progress import StudyProgress
+from quadlab.studies.runner import run_studies
+from quadlab.trials.problems import suggestion, validation_problems
+
+FOLDER = Path(__file__).parent
+EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 130
+
+
+class ReproduceOptions(StrictModel):
+    """What to reproduce.
+
+    Attributes:
+        paper: one of them, or all.
+        artefact: part of the name of a script; empty for all of the paper.
+        jobs: processes at a time.
+    """
+
+    paper: Literal["all", "gehring2017", "winkler2017", "bellicoso2016"] = "all"
+    artefact: str = ""
+    jobs: int = Field(default_factory=lambda: len(os.sched_getaffinity(0)), ge=1)
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Reproduce what arguments such as ``paper=all`` ask for and return the exit code."""
+    try:
+        return reproduce(read_options(arguments), StudyProgress())
+    except QuadlabError as error:
+        sys.stderr.writelines(f"quadlab: {line}\n" for line in str(error).splitlines())
+        return EXIT_USAGE
+    except KeyboardInterrupt:
+        sys.stderr.write("quadlab: interrupted; what is done stays, run the same command to go on\n")
+        return EXIT_INTERRUPTED
+
+
+def read_options(arguments: Sequence[str]) -> ReproduceOptions:
+    """Return the options that ``key=value`` arguments stand for.
+
+    Raises:
+        ConfigurationError: with one line for each mistake.
+    """
+    pairs = [argument.partition("=") for argument in arguments]
+    wrong = [key for key, equals, _ in pairs if not equals]
+    if wrong:
+        keys = ", ".join(f"{key}=..." for key in ReproduceOptions.model_fields)
+        raise ConfigurationError(f"'{wrong[0]}': expected key=value; known: {keys}")
+    try:
+        return ReproduceOptions.model_validate({key: value for key, _, value in pairs})
+    except ValidationError as error:
+        raise ConfigurationError("\n".join(validation_problems(ReproduceOptions, error))) from error
+
+
+def reproduce(options: ReproduceOptions, progress: StudyProgress) -> int:
+    """Run what is missing, draw, print the table of artefacts and return the exit code.
+
+    Raises:
+        ConfigurationError: if no artefact has that name, or a study is wrong.
+    """
+    scripts = chosen_scripts(options)
+    results = StudyResults(FOLDER.parent / "results")
+    studies = list(dict.fromkeys(study for script in scripts for study in script.artefact.studies))
+    errors = run_studies(studies, results.folder, options.jobs, progress)
+    missing = draw_all(scripts, results, progress)
+    write_summary(artefact_scripts([]), results)
+    for entry in judge(scripts, results):
+        progress.say(f"{entry.script.artefact.source:28s} {entry.verdict:15s} {entry.script.artefact.title}")
+        for claim in entry.claims:
+            progress.say(f"    {claim.verdict.value:15s} {claim.text}: {claim.ours} (paper: {claim.paper})")
+    return EXIT_FAILED if errors or missing else 0
+
+
+def chosen_scripts(options: ReproduceOptions) -> list[ArtefactScript]:
+    """Return the scripts that the options ask for.
+
+    Raises:
+        ConfigurationError: if there are none.
+    """
+    scripts = [script for script in artefact_scripts([]) if options.paper in ("all", script.paper)]
+    chosen = [script for script in scripts if options.artefact in script.name]
+    if not chosen:
+        names = {script.name for script in scripts}
+        raise ConfigurationError(f"artefact: unknown '{options.artefact}'; {suggestion(options.artefact, names)}")
+    return chosen
+
+
+def draw_all(scripts: Sequence[ArtefactScript], results: StudyResults, progress: StudyProgress) -> int:
+    """Draw what can be drawn and return how many artefacts lack their results."""
+    missing = 0
+    for script in scripts:
+        try:
+            for path in draw_artefact(script, results, FOLDER):
+                progress.say(str(path.relative_to(FOLDER.parent)))
+        except QuadlabError as error:
+            missing += 1
+            progress.say(f"{script.name}: {error}")
+    return missing

@@ -1,0 +1,110 @@
+"""What a study is: the file ``conf/study/<name>.yaml``."""
+
+from typing import Annotated, TypeAlias
+
+import yaml
+from pydantic import Field, ValidationError
+
+from quadlab.configuration import Positive, StrictModel
+from quadlab.errors import ConfigurationError
+from quadlab.paths import CONF_DIR
+from quadlab.trials.problems import suggestion, validation_problems
+
+Level: TypeAlias = str | int | float
+"""A label or value that a factor takes."""
+
+Factor: TypeAlias = tuple[Level, ...] | dict[Level, tuple[str, ...]]
+"""Values of the configuration key that the factor is named after, or labels with the overrides that they stand for."""
+
+
+class SearchConfig(StrictModel):
+    """The largest value of a key at which the trial still completes, found by bisection on a grid.
+
+    Attributes:
+        key: dotted key of the configuration, e.g. ``scenario.pushes.0.force_n``.
+        lowest, step, highest: of the grid, in the key's unit.
+        confirm: how many grid values just below the limit are tried as well, as limits need not be monotone.
+    """
+
+    key: str
+    lowest: float
+    step: Positive
+    highest: float
+    confirm: Annotated[int, Field(ge=0)]
+
+
+class BlockConfig(StrictModel):
+    """All combinations of some factors.
+
+    Attributes:
+        overrides: of ``conf/trial.yaml``, for all of them.
+        factors: by name; their product is run. A name with a list of values is a configuration key.
+        search: for each combination, if given; else each is one job.
+    """
+
+    overrides: tuple[str, ...] = ()
+    factors: Annotated[dict[str, Factor], Field(min_length=1)]
+    search: SearchConfig | None = None
+
+
+class TraceConfig(StrictModel):
+    """Curves of one trial that are kept, so that figures can be drawn without its log.
+
+    Attributes:
+        name: of the files.
+        where: levels of the factors that pick the job.
+        columns: patterns such as ``control.com_*`` over the tables state, estimate, control and levels.
+        rate_hz: at most; every n-th tick is kept.
+        snapshots_s: times of rendered pictures in [s].
+    """
+
+    name: str
+    where: dict[str, Level]
+    columns: tuple[str, ...]
+    rate_hz: Positive
+    snapshots_s: tuple[float, ...] = ()
+
+
+class StudyConfig(StrictModel):
+    """A study.
+
+    Attributes:
+        title: one line for people.
+        job: what one combination is, see ``quadlab.studies.jobs``.
+        blocks: run one after the other; their rows form one table.
+        traces: curves to keep.
+        plans: names of plans to keep, with the levels that pick their jobs.
+        report_by: factors whose combinations are the lines of the report.
+        report_columns: result columns of which the report shows median and worst.
+    """
+
+    title: str
+    job: str = "trial"
+    blocks: Annotated[tuple[BlockConfig, ...], Field(min_length=1)]
+    traces: tuple[TraceConfig, ...] = ()
+    plans: dict[str, dict[str, Level]] = Field(default_factory=dict)
+    report_by: tuple[str, ...]
+    report_columns: tuple[str, ...] = ()
+
+
+def study_names() -> list[str]:
+    """Return the names of all studies, sorted."""
+    return sorted(path.stem for path in (CONF_DIR / "study").glob("*.yaml"))
+
+
+def load_study(name: str) -> StudyConfig:
+    """Return the study in ``conf/study/<name>.yaml``.
+
+    Raises:
+        ConfigurationError: if there is none of that name, or with one line for each mistake in it.
+    """
+    path = CONF_DIR / "study" / f"{name}.yaml"
+    if not path.is_file():
+        raise ConfigurationError(f"unknown study '{name}'; {suggestion(name, set(study_names()))}")
+    try:
+        return StudyConfig.model_validate(yaml.safe_load(path.read_text(encoding="utf-8")))
+    except ValidationError as error:
+        lines = validation_problems(StudyConfig, error)
+        raise ConfigurationError("\n".join(f"study/{name}.yaml: {line}" for line in lines)) from error
+    except yaml.YAMLError as error:
+        raise ConfigurationError(f"study/{name}.yaml: not YAML ({error})") from error

@@ -1,0 +1,102 @@
+"""Where a study keeps what, below ``results/<study>/``."""
+
+import hashlib
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from quadlab.paths import CONF_DIR
+from quadlab.trials.files import write_json
+
+
+@dataclass(frozen=True)
+class StudyFolder:
+    """The files of one study.
+
+    Attributes:
+        path: ``<results>/<study>``.
+    """
+
+    path: Path
+
+    @property
+    def table(self) -> Path:
+        """One row a job; tracked."""
+        return self.path / "table.csv"
+
+    @property
+    def limits(self) -> Path:
+        """One row a search; tracked."""
+        return self.path / "limits.csv"
+
+    @property
+    def report(self) -> Path:
+        """The table for people; tracked."""
+        return self.path / "report.md"
+
+    @property
+    def manifest(self) -> Path:
+        """Provenance; tracked."""
+        return self.path / "manifest.json"
+
+    def trace(self, name: str) -> Path:
+        """Curves of one trial; tracked."""
+        return self.path / "traces" / f"{name}.parquet"
+
+    def events(self, name: str) -> Path:
+        """What happened in that trial; tracked."""
+        return self.path / "traces" / f"{name}.events.csv"
+
+    def snapshot(self, name: str, number: int) -> Path:
+        """A picture of that trial; tracked."""
+        return self.path / "traces" / f"{name}.{number:02d}.png"
+
+    def plan(self, name: str) -> Path:
+        """A plan, also that of a traced trial; tracked."""
+        return self.path / "plans" / f"{name}.npz"
+
+    def row(self, identifier: str) -> Path:
+        """What is remembered of one job; not tracked."""
+        return self.path / "rows" / f"{identifier}.json"
+
+
+def read_row(folder: StudyFolder, identifier: str, settings: str) -> dict[str, Any] | None:
+    """Return the remembered row of a job, or None if there is none that is still good.
+
+    Args:
+        folder: of the study.
+        identifier: of the condition.
+        settings: what the row depends on, as given to ``write_row``.
+    """
+    path = folder.row(identifier)
+    if not path.is_file():
+        return None
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except json.JSONDecodeError:
+        return None  # half a file cannot happen, a damaged one is made again
+    if content.get("settings") != settings:
+        return None
+    row: dict[str, Any] = content["row"]
+    return row
+
+
+def write_row(folder: StudyFolder, identifier: str, settings: str, row: dict[str, Any]) -> None:
+    """Remember the row of a job in one step."""
+    write_json(folder.row(identifier), {"settings": settings, "row": row})
+
+
+@cache
+def configuration_hash() -> str:
+    """Return one hash of all YAML files: rows remembered under another one are looked at again."""
+    digest = hashlib.sha256()
+    for path in sorted(CONF_DIR.rglob("*.yaml")):
+        digest.update(str(path.relative_to(CONF_DIR)).encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
+
+
+def file_hash(path: Path) -> str:
+    """Return the SHA-256 of a file in hexadecimal."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -1,0 +1,105 @@
+"""What one condition of a study can be: from its overrides to a flat row."""
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from quadlab.errors import ConfigurationError
+from quadlab.paths import checkout_dir
+from quadlab.planners.plan import MotionPlan
+from quadlab.studies.files import file_hash
+from quadlab.trials.compose import compose_trial
+from quadlab.trials.config import RunOptions
+from quadlab.trials.job import run_job
+from quadlab.trials.manifest import MANIFEST_FILE, git_state
+from quadlab.trials.plan_job import run_plan_job
+from quadlab.trials.problems import suggestion
+from quadlab.trials.progress import SilentProgress
+from quadlab.trials.recording.topics import LOG_FILE
+from quadlab.trials.result import TrialStatus
+
+Row: TypeAlias = dict[str, Any]
+Job: TypeAlias = Callable[[Sequence[str], Path], Row]
+"""Takes overrides and the study's folder; leaves its files below it and returns a row with a ``status``."""
+
+JOBS: dict[str, Job] = {}
+DIRECTORY = "directory"
+"""Column of the folder, relative to that of the study, in which a job left its files."""
+FAILURE = "status_reason"
+
+
+def job_named(name: str) -> Job:
+    """Return a job.
+
+    Raises:
+        ConfigurationError: if there is none of that name.
+    """
+    if name not in JOBS:
+        raise ConfigurationError(f"job: unknown '{name}'; {suggestion(name, JOBS)}")
+    return JOBS[name]
+
+
+def study_job(name: str) -> Callable[[Job], Job]:
+    """Function decorator: make a job selectable by ``job: <name>`` in the YAML of a study."""
+
+    def decorate(job: Job) -> Job:
+        JOBS[name] = job
+        return job
+
+    return decorate
+
+
+@study_job("trial")
+def trial_row(overrides: Sequence[str], folder: Path) -> Row:
+    """Run one closed-loop trial, unless its result is there, and return its result as a row."""
+    config = compose_trial([*overrides, "tag=trials", "log.wall_times=false"])
+    outcome = run_job(config, RunOptions(force=False, results_dir=str(folder)), SilentProgress())
+    made_by = json.loads((outcome.directory / MANIFEST_FILE).read_text(encoding="utf-8"))["git"]
+    place = {DIRECTORY: str(outcome.directory.relative_to(folder)), "commit": made_by and made_by["commit"]}
+    if outcome.result is None:
+        return {"status": TrialStatus.ERROR.value, FAILURE: outcome.failure, **place}
+    log = outcome.directory / LOG_FILE
+    return {
+        **outcome.result.model_dump(mode="json", exclude={"schema_version"}),
+        "log_sha256": file_hash(log) if log.is_file() else None,
+        **place,
+    }
+
+
+@study_job("plan")
+def plan_row(overrides: Sequence[str], folder: Path) -> Row:
+    """Plan without a trial and return size, times, costs, residuals and the checker's verdict as a row."""
+    config = compose_trial([*overrides, "tag=plans"])
+    job = run_plan_job(config, RunOptions(force=False, results_dir=str(folder)))
+    row: Row = {
+        "status": job.outcome.status.value,
+        FAILURE: job.outcome.reason,
+        "robot": config.robot.name,
+        "gait": config.gait.name,
+        "planner": config.planner.name,
+        DIRECTORY: str(job.directory.relative_to(folder)),
+        "commit": current_commit(),
+    }
+    return row if job.outcome.plan is None else {**row, **plan_numbers(job.outcome.plan)}
+
+
+def plan_numbers(plan: MotionPlan) -> Row:
+    """Return what a plan's report and verdict say, one flat column each."""
+    report = plan.report
+    return {
+        "variables": report.variables,
+        "constraints": report.constraints,
+        "iterations": report.iterations,
+        "build_ms": report.build_ms,
+        "solve_ms": report.solve_ms,
+        **{f"cost_{name}": value for name, value in report.costs.items()},
+        **{f"residual_{name}": value for name, value in report.residuals.items()},
+        **{f"checked_{name}": value for name, value in plan.verdict.values.items()},
+    }
+
+
+def current_commit() -> str | None:
+    """Return the commit that runs, or None outside a repository."""
+    state = git_state(checkout_dir())
+    return None if state is None else str(state["commit"])

@@ -1,0 +1,79 @@
+"""The text that a study leaves for people: one line a group of jobs."""
+
+from collections.abc import Iterator, Sequence
+
+import pandas as pd
+from scipy.stats import binomtest
+
+from quadlab.studies.config import StudyConfig
+from quadlab.studies.progress import GOOD
+
+
+def study_report(study: StudyConfig, table: pd.DataFrame, limits: pd.DataFrame) -> str:
+    """Return title and tables in Markdown.
+
+    Args:
+        study: names the factors of the lines and the columns that are shown.
+        table: one row a job.
+        limits: one row a search; may be empty.
+    """
+    parts = [f"# {study.title}", "", *_success_lines(study, table)]
+    if len(limits):
+        parts += ["", *_limit_lines(study, limits)]
+    return "\n".join(parts) + "\n"
+
+
+def success_share(good: int, trials: int) -> str:
+    """Return "good of trials (low to high %)" with the 95 % interval of Wilson."""
+    interval = binomtest(good, trials).proportion_ci(0.95, method="wilson")
+    return f"{good} of {trials} ({100 * interval.low:.0f} to {100 * interval.high:.0f} %)"
+
+
+def _success_lines(study: StudyConfig, table: pd.DataFrame) -> Iterator[str]:
+    names = list(study.report_by)
+    shown = [column for column in study.report_columns if column in table]
+    yield _line([*names, "completed (95 %)", *(f"{column} median / worst" for column in shown), "failures"])
+    yield _rule(len(names), 1 + len(shown), 1)
+    for key, rows in _groups(table, names):
+        good = rows["status"].isin(GOOD)
+        numbers = [_median_and_worst(rows.loc[good, column]) for column in shown]
+        yield _line([*key, success_share(int(good.sum()), len(rows)), *numbers, _failures(rows[~good])])
+
+
+def _limit_lines(study: StudyConfig, limits: pd.DataFrame) -> Iterator[str]:
+    names = [name for name in study.report_by if name in limits]
+    yield _line([*names, "largest survived", "searches", "minimum", "median", "maximum", "above the grid"])
+    yield _rule(len(names) + 1, 5, 0)
+    for key, rows in _groups(limits, [*names, "key"]):
+        found = rows["limit"].astype(float)
+        least = "none" if found.isna().any() else f"{found.min():.4g}"
+        known = found.fillna(0.0)
+        numbers = [least, f"{known.median():.4g}", f"{known.max():.4g}"]
+        yield _line([*key, str(len(rows)), *numbers, str(int((found >= rows["highest"]).sum()))])
+
+
+def _groups(table: pd.DataFrame, names: Sequence[str]) -> Iterator[tuple[list[str], pd.DataFrame]]:
+    if not names:
+        yield [], table
+        return
+    for key, rows in table.astype(dict.fromkeys(names, str)).groupby(list(names), sort=False):
+        yield [str(value) for value in key], table.loc[rows.index]
+
+
+def _median_and_worst(values: "pd.Series[float]") -> str:
+    return f"{values.median():.3g} / {values.max():.3g}" if values.notna().any() else "-"
+
+
+def _failures(rows: pd.DataFrame) -> str:
+    if not len(rows):
+        return "-"
+    counts = rows["status"].value_counts()
+    return ", ".join(f"{count} {status}" for status, count in counts.items())
+
+
+def _line(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(cells)} |"
+
+
+def _rule(left: int, right: int, last: int) -> str:
+    return f"|{'---|' * left}{'--:|' * right}{'---|' * last}"

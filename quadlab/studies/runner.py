@@ -1,0 +1,136 @@
+"""Runs studies: all their jobs through one pool, searches included, then their tables and reports."""
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from dataclasses import dataclass, field
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from quadlab.studies.boundary import BoundarySearch
+from quadlab.studies.condition import Condition, conditions
+from quadlab.studies.config import StudyConfig, load_study
+from quadlab.studies.files import StudyFolder
+from quadlab.studies.jobs import job_named
+from quadlab.studies.progress import StudyProgress
+from quadlab.studies.tables import write_tables
+from quadlab.studies.work import Work, do_work, remembered
+from quadlab.trials.result import TrialStatus
+
+Row = dict[str, Any]
+
+
+@dataclass
+class OpenCondition:
+    """A condition under way: one job, or a search that asks for one after the other."""
+
+    condition: Condition
+    search: BoundarySearch | None
+    rows: list[tuple[Condition, Row]] = field(default_factory=list)
+
+    def next_job(self) -> Condition | None:
+        """Return the job to do next; None if there is none left."""
+        if self.search is None:
+            return None if self.rows else self.condition
+        value = self.search.next_value()
+        return None if value is None else self.condition.probe(value)
+
+    def take(self, job: Condition, row: Row) -> None:
+        """Take in the row of a job."""
+        self.rows.append((job, row))
+        if self.search is not None:
+            value = float(job.levels[self.search.config.key])
+            self.search.record(value, row["status"] == TrialStatus.COMPLETED)
+
+
+@dataclass
+class OpenStudy:
+    """A study under way."""
+
+    name: str
+    config: StudyConfig
+    folder: StudyFolder
+    conditions: list[OpenCondition]
+    changed: bool = False
+
+    def open_jobs(self, progress: StudyProgress) -> Iterator[tuple[OpenCondition, Condition]]:
+        """Yield the first job of each condition that was not done before."""
+        for condition in self.conditions:
+            job = self.advance(condition, progress)
+            if job is not None:
+                yield condition, job
+
+    def advance(self, condition: OpenCondition, progress: StudyProgress) -> Condition | None:
+        """Return the next job of a condition that has to be done, taking in those that were done before."""
+        while (job := condition.next_job()) is not None:
+            progress.expect(1)
+            row = remembered(self.work(job))
+            if row is None:
+                return job
+            condition.take(job, row)
+            progress.skip()
+        return None
+
+    def work(self, job: Condition) -> Work:
+        """Return what a process needs to do a job."""
+        return Work(self.config, self.folder, job)
+
+
+def open_study(name: str, results: Path) -> OpenStudy:
+    """Return a study that is about to be run.
+
+    Raises:
+        ConfigurationError: if there is no such study, or something in it is wrong.
+    """
+    config = load_study(name)
+    job_named(config.job)
+    opened = [OpenCondition(c, BoundarySearch(c.search) if c.search else None) for c in conditions(config)]
+    return OpenStudy(name, config, StudyFolder(results / name), opened)
+
+
+def run_studies(names: Sequence[str], results: Path, workers: int, progress: StudyProgress) -> int:
+    """Run what is missing of some studies, write their tables, and return how many jobs ended in an error.
+
+    Args:
+        names: of the studies.
+        results: folder of all results.
+        workers: processes at a time.
+        progress: told about every job.
+
+    Raises:
+        ConfigurationError: if a study does not exist, or something in it is wrong.
+    """
+    studies = [open_study(name, results) for name in names]
+    queue = deque((study, *job) for study in studies for job in study.open_jobs(progress))
+    if queue:
+        _work_off(queue, workers, progress)
+    for study in studies:
+        rows = [row for condition in study.conditions for row in condition.rows]
+        if study.changed or not study.folder.table.is_file():
+            searches = [(c.condition, c.search) for c in study.conditions if c.search is not None]
+            write_tables(study.config, study.folder, rows, searches)
+    everything = [row for study in studies for condition in study.conditions for _, row in condition.rows]
+    return sum(row["status"] == TrialStatus.ERROR for row in everything)
+
+
+def _work_off(queue: deque[tuple[OpenStudy, OpenCondition, Condition]], workers: int, progress: StudyProgress) -> None:
+    """Do all jobs, each followed by what its search asks for next."""
+    running: dict[Future[Row], tuple[OpenStudy, OpenCondition, Condition]] = {}
+    with ProcessPoolExecutor(workers, get_context("forkserver")) as pool:
+        while queue or running:
+            while queue and len(running) < workers:
+                study, condition, job = queue.popleft()
+                running[pool.submit(do_work, study.work(job))] = (study, condition, job)
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                study, condition, job = running.pop(future)
+                condition.take(job, future.result())
+                study.changed = True
+                progress.finish(_name(study, job), future.result())
+                following = study.advance(condition, progress)
+                if following is not None:
+                    queue.appendleft((study, condition, following))
+
+
+def _name(study: OpenStudy, job: Condition) -> str:
+    return f"{study.name} {', '.join(str(level) for level in job.levels.values())}"

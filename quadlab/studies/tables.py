@@ -1,0 +1,67 @@
+"""What a study leaves: the table of all jobs, the limits found, provenance and a report."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import pandas as pd
+
+from quadlab.paths import checkout_dir
+from quadlab.studies.boundary import BoundarySearch
+from quadlab.studies.condition import Condition
+from quadlab.studies.config import StudyConfig
+from quadlab.studies.files import StudyFolder, configuration_hash
+from quadlab.studies.report import study_report
+from quadlab.trials.files import write_json, write_text
+from quadlab.trials.manifest import git_state, installed_packages, lock_hash, processor, thread_environment
+
+Rows = Sequence[tuple[Condition, dict[str, Any]]]
+Searches = Sequence[tuple[Condition, BoundarySearch]]
+FLOAT_FORMAT = "%.6g"
+
+
+def write_tables(study: StudyConfig, folder: StudyFolder, rows: Rows, searches: Searches) -> None:
+    """Write ``table.csv``, ``limits.csv`` if something was searched for, ``manifest.json`` and ``report.md``."""
+    table, limits = job_table(rows), limit_table(searches)
+    write_text(folder.table, table.to_csv(index=False, float_format=FLOAT_FORMAT))
+    if len(limits):
+        write_text(folder.limits, limits.to_csv(index=False, float_format=FLOAT_FORMAT))
+    write_json(folder.manifest, study_manifest(table))
+    write_text(folder.report, study_report(study, table, limits))
+
+
+def job_table(rows: Rows) -> pd.DataFrame:
+    """Return one row a job: its levels, then its numbers."""
+    return pd.DataFrame([{**job.levels, **{k: v for k, v in row.items() if k not in job.levels}} for job, row in rows])
+
+
+def limit_table(searches: Searches) -> pd.DataFrame:
+    """Return one row a search: its levels, the largest value survived, and how sure that is."""
+    return pd.DataFrame(
+        [
+            {
+                **condition.levels,
+                "key": search.config.key,
+                "limit": search.limit,
+                "highest": search.config.highest,
+                "step": search.config.step,
+                "probes": len(search.outcomes),
+                "monotone": search.monotone,
+            }
+            for condition, search in searches
+        ]
+    )
+
+
+def study_manifest(table: pd.DataFrame) -> dict[str, Any]:
+    """Return what the numbers of a table depend on besides the configuration."""
+    commits = table["commit"].dropna().value_counts().to_dict() if "commit" in table else {}
+    return {
+        "jobs": len(table),
+        "commits": {str(commit): int(count) for commit, count in commits.items()},
+        "git": git_state(checkout_dir()),
+        "configuration_sha256": configuration_hash(),
+        "lock_sha256": lock_hash(checkout_dir()),
+        "cpu": processor(),
+        "environment": thread_environment(),
+        "packages": installed_packages(),
+    }

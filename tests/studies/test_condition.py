@@ -1,0 +1,81 @@
+"""A study is the product of its factors, block by block, and every file of conf/study is one that can be run."""
+
+import pytest
+
+from quadlab.errors import ConfigurationError
+from quadlab.studies.condition import Condition, conditions
+from quadlab.studies.config import StudyConfig, load_study, study_names
+from quadlab.studies.jobs import JOBS
+from quadlab.trials.compose import compose_trial
+
+STUDY = StudyConfig.model_validate(
+    {
+        "title": "Two blocks",
+        "blocks": [
+            {
+                "overrides": ["duration_s=4"],
+                "factors": {"seed": [0, 1], "variant": {"aligned": [], "not": ["controller.tracking.x=none"]}},
+            },
+            {"factors": {"gait": ["walk"]}, "search": {"key": "f", "lowest": 1, "step": 1, "highest": 3, "confirm": 0}},
+        ],
+        "report_by": ["variant"],
+    }
+)
+
+
+def test_blocks_are_products_of_their_factors() -> None:
+    found = conditions(STUDY)
+    assert [condition.levels for condition in found] == [
+        {"seed": 0, "variant": "aligned"},
+        {"seed": 0, "variant": "not"},
+        {"seed": 1, "variant": "aligned"},
+        {"seed": 1, "variant": "not"},
+        {"gait": "walk"},
+    ]
+    assert found[1].overrides == ("duration_s=4", "seed=0", "controller.tracking.x=none")
+    assert found[-1].probe(2.0).overrides == ("gait=walk", "f=2")
+
+
+def test_names_of_jobs_depend_on_their_overrides_alone() -> None:
+    first, second = Condition({"a": 1}, ("seed=1",)), Condition({"b": 2}, ("seed=1",))
+    assert first.identifier == second.identifier
+    assert first.identifier != Condition({"a": 1}, ("seed=2",)).identifier
+
+
+def test_unknown_study_is_one_line_that_names_the_known_ones() -> None:
+    with pytest.raises(ConfigurationError, match=r"unknown study 'acceptence'; did you mean 'acceptance'\?"):
+        load_study("acceptence")
+
+
+@pytest.mark.parametrize("name", study_names())
+def test_every_level_of_every_study_is_a_valid_trial(name: str) -> None:
+    study = load_study(name)
+    assert study.job in JOBS
+    if study.job not in ("trial", "plan"):
+        return
+    for condition in _covering(conditions(study)):
+        compose_trial(condition.probe(condition.search.highest).overrides if condition.search else condition.overrides)
+
+
+@pytest.mark.parametrize("name", study_names())
+def test_what_is_kept_and_reported_exists(name: str) -> None:
+    study = load_study(name)
+    found = conditions(study)
+    names = {level for condition in found for level in condition.levels}
+    for trace in study.traces:
+        probes = [c for c in found if c.matches({k: v for k, v in trace.where.items() if k in names})]
+        assert len(probes) == 1, f"{name}: trace '{trace.name}' picks {len(probes)} jobs, expected one"
+    for plan, where in study.plans.items():
+        assert sum(condition.matches(where) for condition in found) == 1, f"{name}: plan '{plan}'"
+
+
+def _covering(found: list[Condition]) -> list[Condition]:
+    """Return so many conditions that every level of every factor is among them."""
+    seen: set[tuple[str, object]] = set()
+    chosen = []
+    for condition in found:
+        levels = set(condition.levels.items())
+        if not levels <= seen:
+            seen |= levels
+            chosen.append(condition)
+    return chosen
