@@ -14,6 +14,7 @@ from quadlab.robots.model import RobotModel
 from quadlab.robots.state import JointCommand, JointDrive, RobotState
 from quadlab.simulation.conventions import MujocoMap
 from quadlab.simulation.model_builder import build_spec, link_placements
+from quadlab.simulation.model_error import ModelErrorConfig, apply_model_error
 from quadlab.simulation.push import BASE_BODY, PushConfig, ScheduledPush
 from quadlab.simulation.scenario import ScenarioConfig, initial_state
 from quadlab.simulation.sensors import ImuIntegrator, ImuSample
@@ -31,9 +32,11 @@ class SimulationConfig(StrictModel):
 
     Attributes:
         timestep_s: of the physics in [s]; control periods must be whole multiples of it.
+        model_error: how the simulated robot differs from the one that the controller knows.
     """
 
     timestep_s: Positive
+    model_error: ModelErrorConfig
 
 
 class Simulator:
@@ -47,6 +50,7 @@ class Simulator:
         self._robot = robot
         self._timestep_s = config.timestep_s
         spec = build_spec(robot, build_ground(scenario.terrain), scenario.friction, config.timestep_s)
+        apply_model_error(spec, robot.config.base_link, config.model_error)
         self.model: Any = spec.compile()
         self._data: Any = mujoco.MjData(self.model)
         self._map = MujocoMap.of(self.model, robot)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from simulation_cases import exact_simulation
 
 from quadlab.geometry.rotations import rotation_log
 from quadlab.robots.catalogue import robot_config
@@ -10,7 +11,7 @@ from quadlab.robots.sensing import ImuConfig, JointSensorConfig, SensorConfig
 from quadlab.robots.state import JointCommand, RobotState
 from quadlab.simulation.scenario import InitialPerturbationConfig, ScenarioConfig
 from quadlab.simulation.sensors import ImuSample, Sensors
-from quadlab.simulation.simulator import SimulationConfig, Simulator
+from quadlab.simulation.simulator import Simulator
 
 PERIOD = 0.0025  # [s]
 GRAVITY = 9.81  # [m/s^2]
@@ -25,7 +26,7 @@ def robot() -> RobotModel:
 def simulator(robot: RobotModel) -> Simulator:
     perturbation = InitialPerturbationConfig(yaw_deg=9.0, pitch_deg=3.0, roll_deg=3.0, joint_rad=0.0, velocity_mps=0.2)
     scenario = ScenarioConfig(name="test", friction=0.8, terrain=(), pushes=(), initial_perturbation=perturbation)
-    return Simulator(robot, scenario, SimulationConfig(timestep_s=0.00125), seed=1)
+    return Simulator(robot, scenario, exact_simulation(0.00125), seed=1)
 
 
 def errors(**changes: float) -> SensorConfig:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from simulation_cases import exact_simulation
 
 from quadlab.errors import ConfigurationError, QuadlabError
 from quadlab.geometry.rotations import Array
@@ -13,7 +14,7 @@ from quadlab.robots.model import RobotModel, load_robot
 from quadlab.robots.state import JointCommand, RobotState
 from quadlab.simulation.push import PushConfig
 from quadlab.simulation.scenario import InitialPerturbationConfig, ScenarioConfig
-from quadlab.simulation.simulator import SimulationConfig, Simulator, check_period
+from quadlab.simulation.simulator import Simulator, check_period
 from quadlab.simulation.terrain import PlankConfig, TerrainConfig
 
 TIMESTEP = 0.00125  # [s]
@@ -37,7 +38,7 @@ def simulator(
         pushes=tuple(pushes),
         initial_perturbation=perturbation,
     )
-    return Simulator(robot, scenario, SimulationConfig(timestep_s=TIMESTEP), seed)
+    return Simulator(robot, scenario, exact_simulation(TIMESTEP), seed)
 
 
 def push(force: float, direction: tuple[float, float, float], duration: float, body: str = "base") -> PushConfig:
