@@ -24,5 +24,9 @@ class LogError(QuadlabError):
     """A trial log that is missing, incomplete or not one of ours."""
 
 
+class PoolError(QuadlabError):
+    """Processes that cannot be started."""
+
+
 class MissingDependencyError(QuadlabError):
     """A system library or optional package that the requested action needs."""

@@ -18,6 +18,7 @@ ORDER = (
     "controllers",
     "simulation",
     "trials",
+    "sweeps",
     "analysis",
     "plotting",
     "studies",
