@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 
 import pandas as pd
-from scipy.stats import binomtest
 
+from quadlab.analysis.statistics import wilson_interval
 from quadlab.studies.config import StudyConfig
 from quadlab.studies.progress import GOOD
 
@@ -24,9 +24,9 @@ def study_report(study: StudyConfig, table: pd.DataFrame, limits: pd.DataFrame) 
 
 
 def success_share(good: int, trials: int) -> str:
-    """Return "good of trials (low to high %)" with the 95 % interval of Wilson."""
-    interval = binomtest(good, trials).proportion_ci(0.95, method="wilson")
-    return f"{good} of {trials} ({100 * interval.low:.0f} to {100 * interval.high:.0f} %)"
+    """Return "good of trials (lower to upper %)" with the 95 % interval of Wilson."""
+    interval = wilson_interval(good, trials)
+    return f"{good} of {trials} ({100 * interval.lower:.0f} to {100 * interval.upper:.0f} %)"
 
 
 def _success_lines(study: StudyConfig, table: pd.DataFrame) -> Iterator[str]:

@@ -2,20 +2,22 @@
 
 from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from contextlib import closing
 from dataclasses import dataclass, field
-from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from quadlab.studies.boundary import BoundarySearch
 from quadlab.studies.condition import Condition, conditions
 from quadlab.studies.config import StudyConfig, load_study
 from quadlab.studies.files import StudyFolder
-from quadlab.studies.jobs import job_named
+from quadlab.studies.jobs import FAILURE, job_named
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.tables import write_tables
 from quadlab.studies.work import Work, do_work, remembered
+from quadlab.sweeps.job import Job, JobStatus, Outcome
+from quadlab.sweeps.limits import PoolConfig
+from quadlab.sweeps.pool import run_pool
 from quadlab.trials.result import TrialStatus
 
 Row = dict[str, Any]
@@ -77,6 +79,10 @@ class OpenStudy:
         return Work(self.config, self.folder, job)
 
 
+PendingJob: TypeAlias = tuple[OpenStudy, OpenCondition, Condition]
+"""A job with what it belongs to."""
+
+
 def open_study(name: str, results: Path) -> OpenStudy:
     """Return a study that is about to be run.
 
@@ -114,22 +120,44 @@ def run_studies(names: Sequence[str], results: Path, workers: int, progress: Stu
     return sum(row["status"] == TrialStatus.ERROR for row in everything)
 
 
-def _work_off(queue: deque[tuple[OpenStudy, OpenCondition, Condition]], workers: int, progress: StudyProgress) -> None:
+@dataclass
+class JobQueue:
+    """The jobs of all studies for the pool: empty for a moment while every search waits for its last probe."""
+
+    waiting: deque[PendingJob]
+    handed_out: list[PendingJob] = field(default_factory=list)
+
+    def __iter__(self) -> "JobQueue":
+        return self
+
+    def __next__(self) -> Job:
+        """Return the next job of the pool; its number is its place in ``handed_out``."""
+        if not self.waiting:
+            raise StopIteration
+        study, condition, job = self.waiting.popleft()
+        self.handed_out.append((study, condition, job))
+        return Job(_name(study, job), do_work, (study.work(job),))
+
+
+def _work_off(waiting: deque[PendingJob], workers: int, progress: StudyProgress) -> None:
     """Do all jobs, each followed by what its search asks for next."""
-    running: dict[Future[Row], tuple[OpenStudy, OpenCondition, Condition]] = {}
-    with ProcessPoolExecutor(workers, get_context("forkserver")) as pool:
-        while queue or running:
-            while queue and len(running) < workers:
-                study, condition, job = queue.popleft()
-                running[pool.submit(do_work, study.work(job))] = (study, condition, job)
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
-                study, condition, job = running.pop(future)
-                condition.take(job, future.result())
-                study.changed = True
-                progress.finish(_name(study, job), future.result())
-                following = study.advance(condition, progress)
-                if following is not None:
-                    queue.appendleft((study, condition, following))
+    queue = JobQueue(waiting)
+    pool = PoolConfig(workers=workers, memory_limit_gib=None, time_limit_s=None)
+    with closing(run_pool(queue, pool)) as outcomes:
+        for outcome in outcomes:
+            study, condition, job = queue.handed_out[outcome.number]
+            row = outcome.value if outcome.status is JobStatus.RETURNED else _failed(outcome)
+            condition.take(job, row)
+            study.changed = True
+            progress.finish(_name(study, job), row)
+            following = study.advance(condition, progress)
+            if following is not None:
+                queue.waiting.appendleft((study, condition, following))
+
+
+def _failed(outcome: Outcome) -> Row:
+    """Return the row of a job whose process ended without one; it is not remembered."""
+    return {"status": TrialStatus.ERROR.value, FAILURE: outcome.reason}
 
 
 def _name(study: OpenStudy, job: Condition) -> str:

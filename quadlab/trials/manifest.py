@@ -45,7 +45,7 @@ def collect_manifest(config: TrialConfig) -> dict[str, Any]:
         "platform": platform.platform(),
         "libc": " ".join(platform.libc_ver()),
         "cpu": processor(),
-        "blas": [{key: library.get(key) for key in _BLAS_FIELDS} for library in threadpool_info()],
+        "blas": linear_algebra(),
         "environment": thread_environment(),
         "packages": installed_packages(),
     }
@@ -106,6 +106,12 @@ def processor() -> dict[str, Any]:
 def _pair(line: str) -> tuple[str, str]:
     key, _, value = line.partition(":")
     return key.strip(), value.strip()
+
+
+def linear_algebra() -> list[dict[str, Any]]:
+    """Return the libraries that use threads, sorted: the order in which they were loaded varies."""
+    libraries = [{key: library.get(key) for key in _BLAS_FIELDS} for library in threadpool_info()]
+    return sorted(libraries, key=lambda library: (str(library["prefix"]), str(library["version"])))
 
 
 def thread_environment() -> dict[str, str]:
