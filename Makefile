@@ -17,7 +17,7 @@ export MKL_NUM_THREADS := 1
 PYTEST_ARGS ?= -n auto
 TAG ?= demo
 
-.PHONY: setup system test lint format demo acceptance bench reproduce figures lock wheel clean
+.PHONY: setup system test lint format demo acceptance bench reproduce compare figures lock wheel clean
 
 ## Install the locked packages and quadlab itself; does nothing if that was done.
 setup: $(STAMP)
@@ -67,6 +67,10 @@ bench: setup
 ## Run every experiment of the papers that was not run yet, and redraw their tables and figures.
 reproduce: setup system
 	$(BIN)/python experiments/reproduce.py paper=all
+
+## Compare planners and controllers on a few cases; the whole comparison: experiments/run_study.py comparison.
+compare: setup
+	$(BIN)/python experiments/run_study.py comparison_small
 
 ## Redraw the tables and figures of the papers from results/, without running anything.
 figures: setup

@@ -31,11 +31,11 @@ class Condition:
         return hashlib.sha256(json.dumps(self.overrides).encode()).hexdigest()[:ID_LENGTH]
 
     def probe(self, value: float) -> "Condition":
-        """Return the job that tries ``value`` of the key that is searched."""
+        """Return the job that tries a grid value of the search."""
         if self.search is None:
             raise ValueError("nothing is searched for in this condition")
-        override = f"{self.search.key}={value:.10g}"
-        return Condition({**self.levels, self.search.key: value}, (*self.overrides, override))
+        override = f"{self.search.key}={self.search.factor * value:.10g}"
+        return Condition({**self.levels, self.search.label: value}, (*self.overrides, override))
 
     def matches(self, where: Mapping[str, Level]) -> bool:
         """Whether its levels are those of ``where``, as far as these go."""

@@ -24,6 +24,8 @@ class SearchConfig(StrictModel):
         key: dotted key of the configuration, e.g. ``scenario.pushes.0.force_n``.
         lowest, step, highest: of the grid, in the key's unit.
         confirm: how many grid values just below the limit are tried as well, as limits need not be monotone.
+        factor: from a grid value to the value of the key, e.g. -1 for the depth of a step down.
+        name: of the grid value in tables; the key if not given.
     """
 
     key: str
@@ -31,6 +33,13 @@ class SearchConfig(StrictModel):
     step: Positive
     highest: float
     confirm: Annotated[int, Field(ge=0)]
+    factor: float = 1.0
+    name: str | None = None
+
+    @property
+    def label(self) -> str:
+        """What tables call the grid value."""
+        return self.name or self.key
 
 
 class BlockConfig(StrictModel):

@@ -42,7 +42,7 @@ class OpenCondition:
         """Take in the row of a job."""
         self.rows.append((job, row))
         if self.search is not None:
-            value = float(job.levels[self.search.config.key])
+            value = float(job.levels[self.search.config.label])
             self.search.record(value, row["status"] == TrialStatus.COMPLETED)
 
 

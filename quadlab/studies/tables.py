@@ -40,7 +40,7 @@ def limit_table(searches: Searches) -> pd.DataFrame:
         [
             {
                 **condition.levels,
-                "key": search.config.key,
+                "key": search.config.label,
                 "limit": search.limit,
                 "highest": search.config.highest,
                 "step": search.config.step,

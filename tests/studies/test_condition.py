@@ -4,7 +4,7 @@ import pytest
 
 from quadlab.errors import ConfigurationError
 from quadlab.studies.condition import Condition, conditions
-from quadlab.studies.config import StudyConfig, load_study, study_names
+from quadlab.studies.config import SearchConfig, StudyConfig, load_study, study_names
 from quadlab.studies.jobs import JOBS
 from quadlab.trials.compose import compose_trial
 
@@ -40,6 +40,13 @@ def test_names_of_jobs_depend_on_their_overrides_alone() -> None:
     first, second = Condition({"a": 1}, ("seed=1",)), Condition({"b": 2}, ("seed=1",))
     assert first.identifier == second.identifier
     assert first.identifier != Condition({"a": 1}, ("seed=2",)).identifier
+
+
+def test_search_may_go_down_and_be_named_for_people() -> None:
+    search = SearchConfig(key="height_m", lowest=0.1, step=0.1, highest=0.3, confirm=0, factor=-1.0, name="depth_m")
+    probe = Condition({}, (), search).probe(0.2)
+    assert probe.overrides == ("height_m=-0.2",)
+    assert probe.levels == {"depth_m": 0.2}
 
 
 def test_unknown_study_is_one_line_that_names_the_known_ones() -> None:
