@@ -12,7 +12,7 @@ import pickle
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 from multiprocessing.connection import Pipe
@@ -41,7 +41,7 @@ def run_pool(
     config: PoolConfig,
     on_event: EventHandler = lambda _: None,
     preloads: Sequence[Job] = (NO_PRELOAD,),
-) -> Iterator[Outcome]:
+) -> Generator[Outcome, None, None]:
     """Run jobs side by side and yield their outcomes as they end.
 
     Args:

@@ -136,7 +136,7 @@ def test_leaving_early_ends_the_workers(tmp_path: Path) -> None:
     outcomes = run_pool([Job("fine", pool_jobs.square, (1,)), Job("long", pool_jobs.note_pid, (tmp_path,))], TWO)
     next(outcomes)
     _until(lambda: any(tmp_path.iterdir()))
-    outcomes.close()  # type: ignore[attr-defined]
+    outcomes.close()
     assert all(_is_gone(int(path.name)) for path in tmp_path.iterdir())
 
 
