@@ -17,6 +17,7 @@ from quadlab.studies.progress import StudyProgress
 from quadlab.studies.runner import run_studies
 from quadlab.trials.problems import suggestion, validation_problems
 
+PAPERS = ("gehring2017", "winkler2017", "bellicoso2016")
 FOLDER = Path(__file__).parent
 EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 130
 
@@ -25,12 +26,12 @@ class ReproduceOptions(StrictModel):
     """What to reproduce.
 
     Attributes:
-        paper: one of them, or all.
+        paper: one of them, all three, or the comparison that no paper has.
         artefact: part of the name of a script; empty for all of the paper.
         jobs: processes at a time.
     """
 
-    paper: Literal["all", "gehring2017", "winkler2017", "bellicoso2016"] = "all"
+    paper: Literal["all", "gehring2017", "winkler2017", "bellicoso2016", "comparison"] = "all"
     artefact: str = ""
     jobs: int = Field(default_factory=lambda: len(os.sched_getaffinity(0)), ge=1)
 
@@ -89,7 +90,8 @@ def chosen_scripts(options: ReproduceOptions) -> list[ArtefactScript]:
     Raises:
         ConfigurationError: if there are none.
     """
-    scripts = [script for script in artefact_scripts([]) if options.paper in ("all", script.paper)]
+    papers = PAPERS if options.paper == "all" else (options.paper,)
+    scripts = [script for script in artefact_scripts([]) if script.paper in papers]
     chosen = [script for script in scripts if options.artefact in script.name]
     if not chosen:
         names = {script.name for script in scripts}

@@ -11,6 +11,8 @@ class Verdict(StrEnum):
     REPRODUCED = "reproduced"
     PARTLY = "partly"
     NOT = "not reproduced"
+    NEW = "new"
+    """No paper says anything of it."""
 
 
 @dataclass(frozen=True)

@@ -14,10 +14,10 @@ from quadlab.studies.files import StudyFolder
 from quadlab.studies.jobs import FAILURE, job_named
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.tables import write_tables
-from quadlab.studies.work import Work, do_work, remembered
+from quadlab.studies.work import Work, do_work, remembered, warm_up_works
 from quadlab.sweeps.job import Job, JobStatus, Outcome
 from quadlab.sweeps.limits import PoolConfig
-from quadlab.sweeps.pool import run_pool
+from quadlab.sweeps.pool import NO_PRELOAD, run_pool
 from quadlab.trials.result import TrialStatus
 
 Row = dict[str, Any]
@@ -30,6 +30,11 @@ class OpenCondition:
     condition: Condition
     search: BoundarySearch | None
     rows: list[tuple[Condition, Row]] = field(default_factory=list)
+
+    @property
+    def levels_of_parts(self) -> tuple[object, ...]:
+        """Which planner, controller and estimator it asks for by name; they are loaded once for all jobs."""
+        return tuple(self.condition.levels.get(part) for part in ("planner", "controller", "estimator"))
 
     def next_job(self) -> Condition | None:
         """Return the job to do next; None if there is none left."""
@@ -141,9 +146,11 @@ class JobQueue:
 
 def _work_off(waiting: deque[PendingJob], workers: int, progress: StudyProgress) -> None:
     """Do all jobs, each followed by what its search asks for next."""
+    first = {(study.name, condition.levels_of_parts): study.work(job) for study, condition, job in reversed(waiting)}
+    preloads = (Job("warming up", warm_up_works, (list(first.values()),)), NO_PRELOAD)
     queue = JobQueue(waiting)
     pool = PoolConfig(workers=workers, memory_limit_gib=None, time_limit_s=None)
-    with closing(run_pool(queue, pool)) as outcomes:
+    with closing(run_pool(queue, pool, preloads=preloads)) as outcomes:
         for outcome in outcomes:
             study, condition, job = queue.handed_out[outcome.number]
             row = outcome.value if outcome.status is JobStatus.RETURNED else _failed(outcome)

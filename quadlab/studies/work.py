@@ -1,6 +1,8 @@
 """One job of a study in its own process: run it, keep its row and its curves."""
 
 import shutil
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,6 +13,8 @@ from quadlab.studies.config import StudyConfig, TraceConfig
 from quadlab.studies.files import StudyFolder, configuration_hash, read_row, write_row
 from quadlab.studies.jobs import DIRECTORY, FAILURE, job_named
 from quadlab.studies.traces import trace_files, write_trace
+from quadlab.sweeps.warm_up import warm_up, warm_up_trials
+from quadlab.trials.compose import compose_trial
 from quadlab.trials.plan_job import PLAN_FILE
 from quadlab.trials.result import RESULT_FILE, TrialStatus
 
@@ -55,6 +59,16 @@ def remembered(work: Work) -> dict[str, Any] | None:
     if work.study.job == "trial":
         needed.append(work.folder.path / row[DIRECTORY] / RESULT_FILE)
     return row if all(path.is_file() for path in needed) else None
+
+
+def warm_up_works(works: Sequence[Work]) -> None:
+    """Load what the trials among ``works`` need; for the process that workers are forked from."""
+    trials = []
+    for work in works:
+        if work.study.job == "trial":
+            with suppress(QuadlabError):  # the job itself will say it
+                trials.append(compose_trial(work.condition.overrides))
+    warm_up(warm_up_trials(trials))
 
 
 def do_work(work: Work) -> dict[str, Any]:

@@ -41,7 +41,7 @@ def run_pool(
     config: PoolConfig,
     on_event: EventHandler = lambda _: None,
     preloads: Sequence[Job] = (NO_PRELOAD,),
-) -> Generator[Outcome]:
+) -> Generator[Outcome, None, None]:
     """Run jobs side by side and yield their outcomes as they end.
 
     Args:

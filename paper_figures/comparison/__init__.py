@@ -1,0 +1,1 @@
+"""What no paper compares: planners and controllers on the same disturbances."""

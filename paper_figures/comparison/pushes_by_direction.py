@@ -1,0 +1,72 @@
+"""The largest push survived by direction, for two planners and two controllers."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.projections.polar import PolarAxes
+
+from paper_figures.comparison_variants import ANYMAL_KG, COLOURS, CONTROLLERS, DASHES, PLANNERS, PUSH_S, STUDY, artefact
+from quadlab.analysis.artefact import Claim, Verdict
+from quadlab.analysis.study_results import StudyResults
+from quadlab.plotting.style import TEXT_WIDTH, paper_style
+
+ARTEFACT = artefact("Largest push survived by direction")
+GAITS = ("trot", "walk")
+
+
+@paper_style()
+def draw(results: StudyResults) -> Figure:
+    """Return polar plots, one a gait: straight ahead is up, the radius is the change of velocity J / m."""
+    limits = numbers(results)
+    figure = Figure(figsize=(TEXT_WIDTH, 3.4), layout="constrained")
+    for place, gait in enumerate(GAITS, 1):
+        axes = figure.add_subplot(1, len(GAITS), place, projection="polar")
+        assert isinstance(axes, PolarAxes)
+        _draw_gait(axes, limits[limits["gait"] == gait])
+        axes.set_title(f"{gait}: largest push survived, J/m in m/s")
+    handles, labels = figure.axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4)
+    return figure
+
+
+def _draw_gait(axes: PolarAxes, limits: pd.DataFrame) -> None:
+    axes.set_theta_zero_location("N")
+    axes.set_thetagrids([0, 90, 180, 270], ["forward", "left", "back", "right"])
+    for planner in PLANNERS:
+        for controller in CONTROLLERS:
+            rows = limits[(limits["planner"] == planner) & (limits["controller"] == controller)]
+            closed = pd.concat([rows, rows.head(1)])
+            axes.plot(
+                np.radians(closed["direction_deg"]),
+                closed["median_mps"],
+                f"o{DASHES[controller]}",
+                color=COLOURS[planner],
+                markersize=2.5,
+                label=f"{planner}, {controller}",
+            )
+    axes.set_ylim(bottom=0.0)
+
+
+def numbers(results: StudyResults) -> pd.DataFrame:
+    """Return the median over the phases of the stride, one row a gait, planner, controller and direction."""
+    limits = results.limits(STUDY)
+    pushes = limits[limits["disturbance"] == "push"]
+    speeds = pushes.assign(
+        direction_deg=pushes["direction"].astype(float), mps=pushes["limit"].fillna(0.0) * PUSH_S / ANYMAL_KG
+    )
+    groups = speeds.groupby(["gait", "planner", "controller", "direction_deg"])["mps"]
+    return groups.agg(median_mps="median", minimum_mps="min", cases="count").reset_index()
+
+
+def claims(results: StudyResults) -> list[Claim]:
+    """Return the smallest and median limit of each combination."""
+    found = numbers(results)
+    return [
+        Claim(
+            f"{gait}, {planner}, {controller}: push survived, minimum / median over directions and phases [m/s]",
+            "-",
+            f"{rows['minimum_mps'].min():.2f} / {rows['median_mps'].median():.2f} ({rows['cases'].sum()} cases)",
+            Verdict.NEW,
+        )
+        for (gait, planner, controller), rows in found.groupby(["gait", "planner", "controller"])
+    ]

@@ -1,0 +1,18 @@
+"""What the scripts of the comparison share: its study, names and colours."""
+
+from quadlab.analysis.artefact import Artefact
+
+STUDY = "comparison"
+PLANNERS = ("kinematic_sqp", "vertex_zmp")
+CONTROLLERS = ("weighted", "hierarchical")
+"""Differences are second minus first."""
+FACTORS = {"planner": PLANNERS, "controller": CONTROLLERS}
+COLOURS = {"kinematic_sqp": "#0072b2", "vertex_zmp": "#d55e00"}
+DASHES = {"hierarchical": "-", "weighted": "--"}
+PUSH_S = 0.15  # [s] of every push
+ANYMAL_KG = 30.475  # [kg]
+
+
+def artefact(title: str) -> Artefact:
+    """Return the description of a figure of the comparison."""
+    return Artefact("X-S1", "comparison", title, (STUDY,))

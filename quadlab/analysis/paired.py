@@ -1,0 +1,41 @@
+"""Two levels of a factor on the same conditions."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+from quadlab.analysis.statistics import Interval, paired_mean_difference, paired_share_difference
+
+
+def pairs(table: pd.DataFrame, factor: str, levels: tuple[str, str], same: Sequence[str], column: str) -> pd.DataFrame:
+    """Return a column for both levels side by side, one row a condition that has both.
+
+    Args:
+        table: one row a job.
+        factor: column of the levels.
+        levels: first and second.
+        same: columns in which a pair agrees.
+        column: to compare.
+    """
+    chosen = table[table[factor].isin(levels)].astype(dict.fromkeys(same, str))
+    wide = chosen.pivot_table(index=list(same), columns=factor, values=column, aggfunc="first", observed=True)
+    return wide.reindex(columns=list(levels)).dropna()
+
+
+def mean_difference(
+    table: pd.DataFrame, factor: str, levels: tuple[str, str], same: Sequence[str], column: str
+) -> Interval:
+    """Return the mean of second minus first over pairs with its 95 % interval; see ``pairs``."""
+    wide = pairs(table, factor, levels, same, column)
+    return paired_mean_difference(wide[levels[0]].to_numpy(float), wide[levels[1]].to_numpy(float))
+
+
+def share_difference(
+    table: pd.DataFrame, factor: str, levels: tuple[str, str], same: Sequence[str], good: Sequence[str]
+) -> Interval:
+    """Return how much more often the second level ends in a status of ``good``, with its 95 % interval."""
+    judged = table.assign(good=table["status"].isin(good).astype(float))
+    wide = pairs(judged, factor, levels, same, "good")
+    first, second = (wide[level].to_numpy(bool) for level in levels)
+    return paired_share_difference(int(np.sum(first & ~second)), int(np.sum(second & ~first)), len(wide))

@@ -1,0 +1,35 @@
+"""Only conditions that both levels have are compared, each with its own partner."""
+
+import pandas as pd
+import pytest
+
+from quadlab.analysis.paired import mean_difference, pairs, share_difference
+
+TABLE = pd.DataFrame(
+    {
+        "controller": ["weighted", "strict", "weighted", "strict", "weighted"],
+        "seed": [0, 0, 1, 1, 2],
+        "error": [2.0, 1.0, 4.0, 2.0, 100.0],
+        "status": ["completed", "completed", "fell", "completed", "fell"],
+    }
+)
+LEVELS = ("weighted", "strict")
+
+
+def test_pairs_agree_in_everything_else() -> None:
+    found = pairs(TABLE, "controller", LEVELS, ["seed"], "error")
+    assert list(found["weighted"]) == [2.0, 4.0]
+    assert list(found["strict"]) == [1.0, 2.0]
+
+
+def test_mean_difference_is_second_minus_first() -> None:
+    difference = mean_difference(TABLE, "controller", LEVELS, ["seed"], "error")
+    assert difference.estimate == pytest.approx(-1.5)
+    assert difference.count == 2
+    assert difference.lower < -1.5 < difference.upper
+
+
+def test_share_difference_counts_pairs_that_disagree() -> None:
+    difference = share_difference(TABLE, "controller", LEVELS, ["seed"], ["completed"])
+    assert difference.estimate == pytest.approx(0.5)
+    assert difference.count == 2
