@@ -23,7 +23,7 @@ ORDER = (
     "plotting",
     "studies",
 )
-BASE = {"errors", "configuration", "paths"}
+BASE = {"errors", "configuration", "paths", "jit"}
 OWNERS = {"mujoco": "simulation", "omegaconf": "trials", "hydra": "trials"}
 FILES = sorted(PACKAGE.rglob("*.py"))
 
