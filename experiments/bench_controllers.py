@@ -1,26 +1,31 @@
-"""Time of a control tick by controller and number of standing feet: model, reference, assembly and solve.
+"""Time of a control tick by controller and number of standing feet: model, reference, assembly, solve.
 
     python experiments/bench_controllers.py [--robot anymal_b] [--repeats 5] [--closed-loop]
 
 A trial is simulated once; its measured states are then given to a fresh controller again and again, which must return
 the same torques bit by bit. The time of a tick is the smallest over the repetitions, so that a busy machine does not
 count; with ``--closed-loop`` it is that of the simulated trial, where the physics have emptied the caches in between.
+Assembly writes dynamics, tasks and limits as rows of the solver; controllers without it count everything as solve.
 """
 
 import argparse
 import gc
 import sys
+import time
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.telemetry import ControlTelemetry, LegMode
-from quadlab.controllers.tracking_controller import build_controller
+from quadlab.controllers.tracking_controller import TrackingController, build_controller
 from quadlab.errors import QuadlabError
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan
+from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.model import RobotModel, load_robot
 from quadlab.robots.state import RobotState
 from quadlab.simulation.simulator import Simulator
@@ -31,7 +36,7 @@ from quadlab.trials.planning import build_planner, planning_problem
 CONTROLLERS = ("hierarchical", "bellicoso2016", "gehring2017", "weighted", "projected_inverse_dynamics")
 GAITS = ("walk", "trot")
 DURATION_S = 8.0
-PARTS = ("model", "reference", "solve", "model + solve", "tick")
+PARTS = ("model", "reference", "assembly", "solve", "all but ref.", "tick")
 
 
 @dataclass(frozen=True)
@@ -39,7 +44,7 @@ class Ticks:
     """Computing time and outcome of the ticks of one pass.
 
     Attributes:
-        timings_us: model, reference and solve, (ticks, 3) in [us].
+        timings_us: model, reference, assembly and solve, (ticks, 4) in [us].
         standing: number of standing feet, (ticks,).
         torques: (ticks, 12) in [N m].
         fallbacks: ticks in which the solver's answer was not used.
@@ -51,10 +56,28 @@ class Ticks:
     fallbacks: int
 
 
-def collect(telemetry: list[ControlTelemetry]) -> Ticks:
+class AssemblyClock:
+    """Measures the assembly of a controller's levels, which is a part of its solve time."""
+
+    def __init__(self, controller: TrackingController) -> None:
+        self.times_us: list[float] = []
+        self._assemble: Any = getattr(controller.resolver, "assemble", None)
+        if self._assemble is not None:
+            controller.resolver.assemble = self._timed  # type: ignore[attr-defined]
+
+    def _timed(self, kinematics: Kinematics, reference: ControlReference) -> Any:
+        began = time.perf_counter()
+        assembled = self._assemble(kinematics, reference)
+        self.times_us.append(1e6 * (time.perf_counter() - began))
+        return assembled
+
+
+def collect(telemetry: list[ControlTelemetry], clock: AssemblyClock) -> Ticks:
     """Return the numbers of a pass."""
+    assembly = np.array(clock.times_us or np.zeros(len(telemetry)))
+    whole = np.array([[tick.model_us, tick.reference_us, tick.solve_us] for tick in telemetry])
     return Ticks(
-        timings_us=np.array([[tick.model_us, tick.reference_us, tick.solve_us] for tick in telemetry]),
+        timings_us=np.column_stack([whole[:, :2], assembly, whole[:, 2] - assembly]),
         standing=np.array([tick.leg_modes.count(LegMode.STANCE) for tick in telemetry]),
         torques=np.array([tick.torques_desired for tick in telemetry]),
         fallbacks=telemetry[-1].fallbacks,
@@ -69,6 +92,7 @@ def simulate(config: TrialConfig, robot: RobotModel) -> tuple[MotionPlan, list[R
     if outcome.plan is None:
         raise QuadlabError(f"bench: no plan: {outcome.status}: {outcome.reason}")
     controller = build_controller(config.controller, robot)
+    clock = AssemblyClock(controller)
     states = [simulator.read()]
     controller.start(outcome.plan, states[0])
     telemetry = []
@@ -77,18 +101,19 @@ def simulate(config: TrialConfig, robot: RobotModel) -> tuple[MotionPlan, list[R
         telemetry.append(report)
         simulator.advance(command, controller.period_s)
         states.append(simulator.read())
-    return outcome.plan, states[:-1], collect(telemetry)
+    return outcome.plan, states[:-1], collect(telemetry, clock)
 
 
 def replay(config: TrialConfig, robot: RobotModel, plan: MotionPlan, states: list[RobotState]) -> Ticks:
     """Return the ticks of a fresh controller that is given ``states``."""
     controller = build_controller(config.controller, robot)
+    clock = AssemblyClock(controller)
     controller.start(plan, states[0])
     gc.collect()
     gc.disable()
     telemetry = [controller.tick(state)[1] for state in states]
     gc.enable()
-    return collect(telemetry)
+    return collect(telemetry, clock)
 
 
 def bench(controller: str, robot_name: str, gait: str, repeats: int) -> list[str]:
@@ -100,7 +125,7 @@ def bench(controller: str, robot_name: str, gait: str, repeats: int) -> list[str
     passes = [replay(config, robot, plan, states) for _ in range(repeats)] or [loop]
     identical = all(each.torques.tobytes() == loop.torques.tobytes() for each in passes)
     best = np.min([each.timings_us for each in passes], axis=0)
-    columns = np.column_stack([best, best[:, 0] + best[:, 2], best.sum(axis=1)])
+    columns = np.column_stack([best, best.sum(axis=1) - best[:, 1], best.sum(axis=1)])
     notes = ("" if identical else "  TORQUES DIFFER") + (f"  {loop.fallbacks} fallbacks" if loop.fallbacks else "")
     lines = []
     for feet in sorted(set(loop.standing.tolist()), reverse=True):

@@ -35,9 +35,13 @@ class HierarchicalResolver:
 
     def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
         """Return the torques that satisfy the levels in their order; what these leave open stays as it was."""
-        space = self._formulate(kinematics, reference.stance_legs)
-        levels = self._stack.assemble(kinematics, reference, space)
+        space, levels = self.assemble(kinematics, reference)
         return resolve_levels(self._solver, levels, space, reference, last_torques)
+
+    def assemble(self, kinematics: Kinematics, reference: ControlReference) -> tuple[DecisionSpace, StackedLevels]:
+        """Return the decision space of a tick and all levels in it, without solving them."""
+        space = self._formulate(kinematics, reference.stance_legs)
+        return space, self._stack.assemble(kinematics, reference, space)
 
 
 def resolve_levels(

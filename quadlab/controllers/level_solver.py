@@ -12,10 +12,10 @@ from quadlab.controllers.controller_config import TrackingControllerConfig
 from quadlab.controllers.formulation import FormulationName
 from quadlab.controllers.hierarchy import StackedLevels, certificate, solve_stacked, unstack
 from quadlab.controllers.hierarchy.cascade import CascadeStatus, QpSolver, solve_cascade
-from quadlab.controllers.hierarchy.jit import compiled_entry
 from quadlab.controllers.hierarchy.level import IndexArray
 from quadlab.controllers.task_levels import LevelConfig, check_level_names
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 
 _ITERATION_LIMIT = 500
 

@@ -14,8 +14,8 @@ import math
 import numpy as np
 
 from quadlab.controllers.decision_space import DecisionSpace
-from quadlab.controllers.hierarchy.jit import compiled, compiled_entry
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled, compiled_entry
 from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 from quadlab.robots.legs import JOINT_COUNT
 
@@ -25,13 +25,13 @@ _COLUMNS = JOINT_COUNT + 1
 
 def reduce_dynamics(kinematics: Kinematics, stance_legs: list[int]) -> DecisionSpace:
     """Eliminate equations of motion and contacts of ``stance_legs`` (numbers in the order of ``LEGS``)."""
-    map_and_offset = _reduce(
+    linear, offset = _reduce(
         kinematics.mass_matrix,
         kinematics.nonlinear_effects,
         kinematics.contact_jacobians[stance_legs].reshape(3 * len(stance_legs), VELOCITY_SIZE),
         kinematics.contact_bias[stance_legs].ravel(),
     )
-    return DecisionSpace(map_and_offset[:, :JOINT_COUNT], map_and_offset[:, JOINT_COUNT])
+    return DecisionSpace(linear, offset)
 
 
 @compiled
@@ -74,9 +74,10 @@ def _solve_transposed_factor(factor: Array, columns: Array) -> None:
 
 
 @compiled_entry
-def _reduce(mass_matrix: Array, nonlinear_effects: Array, jacobian: Array, bias: Array) -> Array:
-    """Return [U u_0; I 0; L l_0], (30 + m, 13), by Cholesky factors of M = G G^T and J M^-1 J^T = Y^T Y, Y = G^-1 J^T.
+def _reduce(mass_matrix: Array, nonlinear_effects: Array, jacobian: Array, bias: Array) -> tuple[Array, Array]:
+    """Return [U; I; L], (30 + m, 12), and [u_0; 0; l_0], (30 + m,).
 
+    By Cholesky factors of M = G G^T and J M^-1 J^T = Y^T Y with Y = G^-1 J^T.
     Written out: on matrices of this size the calls of a library take longer than the arithmetic.
     """
     size, contacts = VELOCITY_SIZE, len(bias)
@@ -109,9 +110,9 @@ def _reduce(mass_matrix: Array, nonlinear_effects: Array, jacobian: Array, bias:
             for c in range(_COLUMNS):
                 motion[i, c] += half[i, _COLUMNS + k] * forces[k, c]
     _solve_transposed_factor(factor, motion)
-    result = np.zeros((size + JOINT_COUNT + contacts, _COLUMNS))
-    result[:size] = motion
+    linear, offset = np.zeros((size + JOINT_COUNT + contacts, JOINT_COUNT)), np.zeros(size + JOINT_COUNT + contacts)
+    linear[:size], offset[:size] = motion[:, :JOINT_COUNT], motion[:, JOINT_COUNT]
     for joint in range(JOINT_COUNT):
-        result[size + joint, joint] = 1.0
-    result[size + JOINT_COUNT :] = forces
-    return result
+        linear[size + joint, joint] = 1.0
+    linear[size + JOINT_COUNT :], offset[size + JOINT_COUNT :] = forces[:, :JOINT_COUNT], forces[:, JOINT_COUNT]
+    return linear, offset

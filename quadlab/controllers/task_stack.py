@@ -11,6 +11,7 @@ from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.task_levels import LevelConfig, build_task
 from quadlab.controllers.tasks.task import TaskRows
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 from quadlab.robots.kinematics import Kinematics
 
 
@@ -55,5 +56,20 @@ def in_decision_variables(parts: Sequence[TaskRows], space: DecisionSpace) -> tu
         last = first + len(part.lower)
         wide[first:last, BLOCKS[part.variable]] = part.matrix
         first = last
-    shift = wide @ space.offset
-    return wide @ space.linear, lower - shift, upper - shift
+    return _substitute(wide, space.linear, space.offset, lower, upper), lower, upper
+
+
+@compiled_entry
+def _substitute(wide: Array, linear: Array, offset: Array, lower: Array, upper: Array) -> Array:
+    """Return wide @ linear, and take wide @ offset from ``lower`` and ``upper``; most entries of ``wide`` are zero."""
+    rows, columns = len(wide), linear.shape[1]
+    matrix = np.zeros((rows, columns))
+    for row in range(rows):
+        for k in range(wide.shape[1]):
+            weight = wide[row, k]
+            if weight != 0.0:
+                for column in range(columns):
+                    matrix[row, column] += weight * linear[k, column]
+                lower[row] -= weight * offset[k]
+                upper[row] -= weight * offset[k]
+    return matrix

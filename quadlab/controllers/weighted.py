@@ -6,6 +6,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from quadlab.configuration import Positive, register
+from quadlab.controllers.decision_space import DecisionSpace
 from quadlab.controllers.formulation import FORMULATIONS, constraint_names
 from quadlab.controllers.hierarchical import resolve_levels
 from quadlab.controllers.hierarchy import StackedLevels
@@ -57,9 +58,13 @@ class WeightedResolver:
 
     def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
         """Return the torques of the weighted optimum."""
-        space = self._formulate(kinematics, reference.stance_legs)
-        levels = self._merged(self._stack.assemble(kinematics, reference, space))
+        space, levels = self.assemble(kinematics, reference)
         return resolve_levels(self._solver, levels, space, reference, last_torques)
+
+    def assemble(self, kinematics: Kinematics, reference: ControlReference) -> tuple[DecisionSpace, StackedLevels]:
+        """Return the decision space of a tick, the limits and the weighted level in it, without solving them."""
+        space = self._formulate(kinematics, reference.stance_legs)
+        return space, self._merged(self._stack.assemble(kinematics, reference, space))
 
     def _merged(self, levels: StackedLevels) -> StackedLevels:
         """Scale the weighted levels by the roots of their weights and make one level of them."""

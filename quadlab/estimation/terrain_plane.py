@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 
 
 @dataclass(frozen=True)
@@ -43,9 +44,23 @@ def fit_plane(points: Array, origin: Array) -> TerrainPlane:
 
     The points must not lie on one vertical plane; four feet never do.
     """
-    columns = np.column_stack([np.ones(len(points)), points[:, :2] - origin])
-    height, slope_x, slope_y = np.linalg.solve(columns.T @ columns, columns.T @ points[:, 2])
-    return TerrainPlane(origin, float(height), np.array([slope_x, slope_y]))
+    height, slope = _least_squares_plane(points, origin)
+    return TerrainPlane(origin, height, slope)
+
+
+@compiled_entry
+def _least_squares_plane(points: Array, origin: Array) -> tuple[float, Array]:
+    """Return height at ``origin`` and slope, (2,): about the mean of the points the normal equations are two."""
+    count = len(points)
+    x, y, z = points[:, 0].sum() / count, points[:, 1].sum() / count, points[:, 2].sum() / count
+    xx, xy, yy, xz, yz = 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(count):
+        dx, dy, dz = points[i, 0] - x, points[i, 1] - y, points[i, 2] - z
+        xx, xy, yy = xx + dx * dx, xy + dx * dy, yy + dy * dy
+        xz, yz = xz + dx * dz, yz + dy * dz
+    determinant = xx * yy - xy * xy
+    slope = np.array([(yy * xz - xy * yz) / determinant, (xx * yz - xy * xz) / determinant])
+    return z + slope[0] * (origin[0] - x) + slope[1] * (origin[1] - y), slope
 
 
 def blend(old: TerrainPlane, new: TerrainPlane, share: float) -> TerrainPlane:

@@ -32,6 +32,11 @@ class LipCurve:
     def _knot_list(self) -> list[float]:
         return [float(knot) for knot in self.knots]
 
+    @cached_property
+    def _coefficient_list(self) -> list[list[list[float]]]:
+        lists: list[list[list[float]]] = self.coefficients.tolist()
+        return lists
+
     @property
     def dimension(self) -> int:
         """Number of components d of the curve."""
@@ -52,14 +57,15 @@ class LipCurve:
         local = inside - knots[piece]
         angle = self.rate * local
         even, odd = math.cosh(angle), math.sinh(angle)
-        offset, slope, p, q = self.coefficients[piece]
+        offset, slope, p, q = self._coefficient_list[piece]
         scale = self.rate**derivative
-        value: Array = (scale * even) * p + (scale * odd) * q if derivative % 2 == 0 else scale * (odd * p + even * q)
+        first, second = (scale * even, scale * odd) if derivative % 2 == 0 else (scale * odd, scale * even)
+        values = [first * pi + second * qi for pi, qi in zip(p, q, strict=True)]
         if derivative == 0:
-            value += offset + local * slope
+            values = [value + (a + local * b) for value, a, b in zip(values, offset, slope, strict=True)]
         if derivative == 1:
-            value += slope
-        return value
+            values = [value + b for value, b in zip(values, slope, strict=True)]
+        return np.array(values)
 
     def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
         """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""

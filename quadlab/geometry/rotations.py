@@ -59,7 +59,7 @@ def tilt_of(rotation: Array) -> float:
 
 def quat_to_matrix(quat_wxyz: Array) -> Array:
     """Return the (3, 3) rotation of a unit quaternion, (4,) wxyz."""
-    w, x, y, z = (float(value) for value in quat_wxyz)
+    w, x, y, z = np.asarray(quat_wxyz, dtype=np.float64).tolist()
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -95,11 +95,10 @@ def matrix_to_quat(rotation: Array) -> Array:
 
 def rotation_log(rotation: Array) -> Array:
     """Return the rotation vector, (3,) in [rad], of a (3, 3) rotation (exact near 0 and near pi)."""
-    x = float(rotation[2, 1] - rotation[1, 2])
-    y = float(rotation[0, 2] - rotation[2, 0])
-    z = float(rotation[1, 0] - rotation[0, 1])
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation.tolist()
+    x, y, z = zy - yz, xz - zx, yx - xy
     sine = 0.5 * math.sqrt(x * x + y * y + z * z)
-    cosine = 0.5 * (float(rotation[0, 0] + rotation[1, 1] + rotation[2, 2]) - 1.0)
+    cosine = 0.5 * (xx + yy + zz - 1.0)
     if cosine < 0.0 and sine < 1e-3:
         return _log_near_half_turn(rotation)
     scale = 0.5 * math.atan2(sine, cosine) / sine if sine > 1e-12 else 0.5

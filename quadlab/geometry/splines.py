@@ -37,6 +37,11 @@ class PiecewisePolynomial:
             tables.append(last[:, 1:] * powers if last.shape[1] > 1 else np.zeros_like(last[:, :1]))
         return tables
 
+    @cached_property
+    def _derivative_lists(self) -> list[list[list[list[float]]]]:
+        """The coefficients as numbers of Python, which are faster than arrays where one time is asked for."""
+        return [table.tolist() for table in self._derivatives]
+
     @property
     def dimension(self) -> int:
         """Number of components d of the curve."""
@@ -53,11 +58,11 @@ class PiecewisePolynomial:
         if derivative and not start <= time_s <= end:
             return np.zeros(self.dimension)
         piece, local = self.locate(time_s)
-        table = self._derivatives[derivative][piece]
-        value: Array = table[-1].copy()
+        table = self._derivative_lists[derivative][piece]
+        values = table[-1]
         for row in table[-2::-1]:
-            value = value * local + row
-        return value
+            values = [value * local + coefficient for value, coefficient in zip(values, row, strict=True)]
+        return np.array(values)
 
     def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
         """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""

@@ -5,19 +5,19 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 
-from quadlab.geometry.rotations import Array, skew
-from quadlab.robots.kinematics import BASE, BASE_ANGULAR, BASE_LINEAR, JOINTS, VELOCITY_SIZE, Kinematics
-from quadlab.robots.legs import LEG_COUNT, joints_of
+from quadlab.geometry.rotations import Array
+from quadlab.robots.kinematics import Kinematics
+from quadlab.robots.kinematics_terms import base_terms, com_terms, dynamics_terms, foot_terms, pinocchio_coordinates
+from quadlab.robots.legs import JOINTS_PER_LEG, LEG_COUNT
 from quadlab.robots.pinocchio_model import PinocchioModel
 from quadlab.robots.state import RobotState
-
-_LEGS = np.arange(LEG_COUNT)[:, None]
-_JOINTS_OF_LEGS = np.array([np.arange(VELOCITY_SIZE)[JOINTS][joints_of(leg)] for leg in range(LEG_COUNT)])
-"""Indices of the joints of each leg in the generalised velocity, (4, 3)."""
 
 
 class KinematicsSolver:
     """Kinematics and dynamics of one robot; owns a Pinocchio workspace, so it must not be shared between threads.
+
+    Pinocchio writes into the same memory at every state. Arrays over that memory are made once and read after each
+    call, since asking for them takes longer than the computation.
 
     Args:
         indexed: the robot's Pinocchio model.
@@ -26,93 +26,71 @@ class KinematicsSolver:
 
     def __init__(self, indexed: PinocchioModel, foot_radius: float) -> None:
         self._indexed = indexed
-        self._model = indexed.model
-        self._data: Any = self._model.createData()
-        self._joint_damping = self._model.damping[indexed.velocity_indices].copy()
-        self._mass_matrix_order = np.ix_(indexed.order, indexed.order)
-        self._zero_acceleration = np.zeros(self._model.nv)
+        self._model = model = indexed.model
+        self._data: Any = model.createData()
         self._foot_radius = foot_radius
-        self._to_contact = np.array([0.0, 0.0, -foot_radius])
-        self._skew_to_contact = skew(self._to_contact)
+        self._joints_of_legs = indexed.velocity_indices.reshape(LEG_COUNT, JOINTS_PER_LEG)
+        self._joint_damping = model.damping[indexed.velocity_indices].copy()
+        self._gravity = model.gravity.linear.copy()
+        self._mass = float(pin.computeTotalMass(model))
+        self._hips_in_base = np.array([model.jointPlacements[joint].translation for joint in indexed.hip_joints])
+        self._dynamics = (self._data.M, self._data.nle)
+        self._com = (self._data.com[0], self._data.vcom[0], self._data.Jcom)
+        self._jacobian = self._data.J
+        self._feet = tuple(self._data.oMf[frame].translation for frame in indexed.foot_frames)
 
     def to_pinocchio(self, state: RobotState) -> tuple[Array, Array]:
         """Return configuration q, (19,), and velocity v, (18,), in Pinocchio's order and conventions."""
-        q = np.empty(self._model.nq)
-        q[:3] = state.position_base_in_world
-        q[3:6] = state.quat_wxyz[1:]
-        q[6] = state.quat_wxyz[0]
-        q[self._indexed.position_indices] = state.joint_positions
-        v = np.empty(self._model.nv)
-        v[BASE_LINEAR] = state.rotation_base_to_world.T @ state.linear_velocity_base_in_world
-        v[BASE_ANGULAR] = state.angular_velocity_base_in_base
-        v[self._indexed.velocity_indices] = state.joint_velocities
-        return q, v
+        return pinocchio_coordinates(
+            state.position_base_in_world,
+            state.quat_wxyz,
+            state.joint_positions,
+            state.linear_velocity_base_in_world,
+            state.angular_velocity_base_in_base,
+            state.joint_velocities,
+            state.rotation_base_to_world,
+            self._indexed.position_indices,
+            self._indexed.velocity_indices,
+        )
 
     def solve(self, state: RobotState) -> Kinematics:
         """Compute kinematics and dynamics at ``state``."""
-        model, data, order = self._model, self._data, self._indexed.order
+        order, rotation = self._indexed.order, state.rotation_base_to_world
         q, v = self.to_pinocchio(state)
-        pin.computeAllTerms(model, data, q, v)
-        mass_matrix = data.M[self._mass_matrix_order]
-        nonlinear_effects = data.nle[order]
-        nonlinear_effects[JOINTS] += self._joint_damping * state.joint_velocities
-        com_jacobian = data.Jcom[:, order]
-        # Accelerations with u_dot = 0 are the bias terms.
-        pin.forwardKinematics(model, data, q, v, self._zero_acceleration)
-        pin.updateFramePlacements(model, data)
-        pin.centerOfMass(model, data, pin.KinematicLevel.ACCELERATION, False)
-        rotation = state.rotation_base_to_world
+        pin.computeAllTerms(self._model, self._data, q, v)
+        pin.updateFramePlacements(self._model, self._data)
+        velocity, mass_matrix, effects = dynamics_terms(*self._dynamics, v, order, self._joint_damping)
+        com_position, com_velocity, com_jacobian, com_bias = com_terms(
+            *self._com, effects, rotation, self._gravity, self._mass, order
+        )
+        base_jacobian, base_bias, base_angular_velocity, hips = base_terms(
+            rotation, v, state.position_base_in_world, self._hips_in_base
+        )
+        centers, positions, velocities, jacobians, bias, contact_jacobians, contact_bias, axes = foot_terms(
+            self._jacobian, v, self._feet, self._joints_of_legs, self._foot_radius
+        )
         return Kinematics(
-            generalized_velocity=v[order],
+            generalized_velocity=velocity,
             mass_matrix=mass_matrix,
-            nonlinear_effects=nonlinear_effects,
-            com_position=data.com[0].copy(),
-            com_velocity=data.vcom[0].copy(),
+            nonlinear_effects=effects,
+            com_position=com_position,
+            com_velocity=com_velocity,
             com_jacobian=com_jacobian,
-            com_bias=data.acom[0].copy(),
+            com_bias=com_bias,
             base_position=state.position_base_in_world,
             base_rotation=rotation,
             base_linear_velocity=state.linear_velocity_base_in_world,
-            base_angular_velocity=rotation @ state.angular_velocity_base_in_base,
+            base_angular_velocity=base_angular_velocity,
+            base_jacobian=base_jacobian,
+            base_bias=base_bias,
+            foot_centers=centers,
+            foot_positions=positions,
+            foot_velocities=velocities,
+            foot_jacobians=jacobians,
+            foot_bias=bias,
+            contact_jacobians=contact_jacobians,
+            contact_bias=contact_bias,
             joint_positions=state.joint_positions,
-            hip_positions=np.array([data.oMi[joint].translation for joint in self._indexed.hip_joints]),
-            **_base_terms(rotation, v),
-            **self._foot_terms(v[order]),
+            leg_joint_axes=axes,
+            hip_positions=hips,
         )
-
-    def _foot_terms(self, velocity: Array) -> dict[str, Array]:
-        """Terms of the sphere centres and of the contact points, at r = (0, 0, -radius) from them in world axes."""
-        model, data, axes = self._model, self._data, pin.LOCAL_WORLD_ALIGNED
-        centers = np.empty((LEG_COUNT, 3))
-        raw_jacobians = np.empty((LEG_COUNT, 6, VELOCITY_SIZE))
-        accelerations = np.empty((LEG_COUNT, 6))
-        for leg, frame in enumerate(self._indexed.foot_frames):
-            centers[leg] = data.oMf[frame].translation
-            raw_jacobians[leg] = pin.getFrameJacobian(model, data, frame, axes)
-            accelerations[leg] = pin.getFrameClassicalAcceleration(model, data, frame, axes).vector
-        jacobians = raw_jacobians.take(self._indexed.order, axis=2)
-        linear, angular = jacobians[:, :3], jacobians[:, 3:]
-        contact_jacobians = linear.copy()  # J - skew(r) J_angular, entry by entry
-        contact_jacobians[:, 0] -= self._foot_radius * angular[:, 1]
-        contact_jacobians[:, 1] += self._foot_radius * angular[:, 0]
-        return {
-            "leg_joint_axes": angular[_LEGS, :, _JOINTS_OF_LEGS].transpose(0, 2, 1),
-            "foot_centers": centers,
-            "foot_positions": centers + self._to_contact,
-            "foot_velocities": linear @ velocity,
-            "foot_jacobians": linear,
-            "foot_bias": accelerations[:, :3],
-            "contact_jacobians": contact_jacobians,
-            "contact_bias": accelerations[:, :3] - accelerations[:, 3:] @ self._skew_to_contact.T,
-        }
-
-
-def _base_terms(rotation: Array, velocity: Array) -> dict[str, Array]:
-    """Jacobian and bias of the base origin: p_ddot = R (v_dot + omega x v), omega_dot = R omega_B_dot."""
-    jacobian = np.zeros((6, VELOCITY_SIZE))
-    jacobian[:3, BASE_LINEAR] = rotation
-    jacobian[3:, BASE_ANGULAR] = rotation
-    vx, vy, vz, wx, wy, wz = velocity[BASE].tolist()
-    bias = np.zeros(6)
-    bias[:3] = rotation @ np.array([wy * vz - wz * vy, wz * vx - wx * vz, wx * vy - wy * vx])
-    return {"base_jacobian": jacobian, "base_bias": bias}

@@ -102,3 +102,11 @@ def test_kinetic_energy_is_that_of_the_moving_masses(robot: RobotModel) -> None:
     q, v = robot.to_pinocchio(state)
     energy = pin.computeKineticEnergy(robot.pin_model, robot.pin_model.createData(), q, v)
     assert 0.5 * u @ kinematics.mass_matrix @ u == pytest.approx(energy, rel=1e-12)
+
+
+def test_kinematics_keep_their_numbers_when_the_next_state_is_computed(robot: RobotModel) -> None:
+    first = robot.kinematics(moving_state(robot))
+    kept = {name: np.copy(value) for name, value in vars(first).items()}
+    robot.kinematics(robot.nominal_state())
+    for name, value in kept.items():
+        np.testing.assert_array_equal(getattr(first, name), value, err_msg=name)

@@ -18,10 +18,10 @@ It ends where no multiplier disagrees: these are the Karush-Kuhn-Tucker conditio
 """
 
 from quadlab.controllers.hierarchy.factorisation import tail_norm
-from quadlab.controllers.hierarchy.jit import inlined
 from quadlab.controllers.hierarchy.multipliers import compute_multipliers, find_leaving
 from quadlab.controllers.hierarchy.step import advance, compute_step, factorise_working_set, find_blocking_row
 from quadlab.controllers.hierarchy.workspace import FREE, HELD, PULLED, Workspace, bound_of
+from quadlab.jit import inlined
 
 SOLVED, ITERATION_LIMIT, BREAKDOWN = 0, 1, 2
 BLAND_AFTER = 40  # iterations in a level before the rule that cannot cycle takes over

@@ -10,7 +10,6 @@ feasible set without interior.
 import math
 
 from quadlab.controllers.hierarchy.factorisation import RANK_TOLERANCE, make_reflector, reflect
-from quadlab.controllers.hierarchy.jit import inlined
 from quadlab.controllers.hierarchy.multipliers import gradient_scales
 from quadlab.controllers.hierarchy.workspace import (
     ELIMINATED,
@@ -21,6 +20,7 @@ from quadlab.controllers.hierarchy.workspace import (
     in_objective,
     row_tolerance,
 )
+from quadlab.jit import inlined
 
 POSITIVE_MULTIPLIER = 1e-7  # relative to the largest residual: a larger multiplier holds its row for good
 ROUNDING = 1e-10  # relative to the largest bound: rounding error of such a multiplier

@@ -6,9 +6,9 @@ earlier ones if what is left of it is small compared with the row as it was give
 
 import math
 
-from quadlab.controllers.hierarchy.jit import compiled, inlined
 from quadlab.controllers.hierarchy.level import IndexArray
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled, inlined
 
 RANK_TOLERANCE = 1e-8  # of least squares and eliminations
 # Smaller than the slope at which a row can block a step, so that a row that has just joined is never dropped again.

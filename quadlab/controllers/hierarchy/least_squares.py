@@ -3,8 +3,8 @@
 import math
 
 from quadlab.controllers.hierarchy.factorisation import RANK_TOLERANCE, make_reflector, reflect, reflect_rows
-from quadlab.controllers.hierarchy.jit import compiled, inlined
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled, inlined
 
 
 @inlined

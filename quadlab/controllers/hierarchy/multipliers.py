@@ -1,8 +1,8 @@
 """Lagrange multipliers of the working set: which held row has to go."""
 
 from quadlab.controllers.hierarchy.factorisation import solve_transposed
-from quadlab.controllers.hierarchy.jit import inlined
 from quadlab.controllers.hierarchy.workspace import Workspace, bound_of, in_objective
+from quadlab.jit import inlined
 
 WRONG_SIGN = 1e-9  # relative to the largest residual: a multiplier that disagrees by less is zero
 ROUNDING = 1e-12  # relative to the largest bound: rounding error of a multiplier

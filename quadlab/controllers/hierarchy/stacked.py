@@ -9,11 +9,11 @@ import numpy as np
 from quadlab.controllers.hierarchy.active_set import BREAKDOWN, SOLVED, solve_level
 from quadlab.controllers.hierarchy.elimination import freeze_level
 from quadlab.controllers.hierarchy.factorisation import reflect
-from quadlab.controllers.hierarchy.jit import compiled_entry, inlined, source_fingerprint
 from quadlab.controllers.hierarchy.level import IndexArray, SideArray
 from quadlab.controllers.hierarchy.step import classify
 from quadlab.controllers.hierarchy.workspace import Workspace, allocate, row_tolerance
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry, inlined, source_fingerprint
 
 StackedResult: TypeAlias = tuple[Array, Array, SideArray, int, int]
 StackedSolver: TypeAlias = Callable[[Array, Array, Array, IndexArray, Array, int], StackedResult]

@@ -1,7 +1,6 @@
 """One step of the active-set method: to the minimum of the current quadratic piece, or up to the first blocking row."""
 
 from quadlab.controllers.hierarchy.factorisation import factorise_rows, tail_norm
-from quadlab.controllers.hierarchy.jit import inlined
 from quadlab.controllers.hierarchy.least_squares import solve_least_squares
 from quadlab.controllers.hierarchy.workspace import (
     ELIMINATED,
@@ -14,6 +13,7 @@ from quadlab.controllers.hierarchy.workspace import (
     in_objective,
     row_tolerance,
 )
+from quadlab.jit import inlined
 
 PARALLEL_TOLERANCE = 1e-9  # a row whose relative slope along the step is smaller cannot block it
 

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quadlab.controllers.hierarchy.jit import compiled, inlined
 from quadlab.controllers.hierarchy.level import IndexArray
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled, inlined
 
 # Roles of a row. A positive role means its upper bound, a negative one its lower bound.
 FREE = 0  # satisfied, or of a level not yet reached

@@ -7,6 +7,9 @@ import numpy as np
 from quadlab.configuration import NonNegative, Positive, StrictModel, register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.task import TaskRows, Variable
+from quadlab.gaits.schedule import BoolArray
+from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 from quadlab.robots.kinematics import Kinematics
 
 
@@ -37,13 +40,36 @@ class FrictionCone:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return five rows in forces for each standing leg."""
-        limits = reference.normal_force_limits[reference.stance]
-        count, size = len(limits), len(self._pyramid)
-        matrix = np.zeros((count, size, count, 3))
-        pyramid = self._pyramid @ reference.ground_axes.T
-        for leg in range(count):
-            matrix[leg, :, leg] = pyramid
-        lower, upper = np.full((count, size), -np.inf), np.zeros((count, size))
-        lower[:, -1] = np.minimum(self.config.minimum_normal_force_share * reference.weight, limits)
-        upper[:, -1] = limits
-        return TaskRows(Variable.FORCE, matrix.reshape(size * count, 3 * count), lower.ravel(), upper.ravel())
+        floor = self.config.minimum_normal_force_share * reference.weight
+        return TaskRows(
+            Variable.FORCE,
+            *_pyramid_rows(
+                self._pyramid, floor, reference.ground_axes, reference.stance, reference.normal_force_limits
+            ),
+        )
+
+
+@compiled_entry
+def _pyramid_rows(
+    pyramid: Array, floor: float, ground_axes: Array, stance: BoolArray, limits: Array
+) -> tuple[Array, Array, Array]:
+    """Return matrix (5 n, 3 n), lower and upper (5 n,) for n standing legs.
+
+    Args:
+        pyramid: rows in the axes of the ground, (5, 3), the normal force last.
+        floor: f_min in [N], as far as the limits allow.
+        ground_axes: columns heading, lateral and normal, (3, 3).
+        stance: which legs stand, (4,).
+        limits: f_max of each leg, (4,) in [N].
+    """
+    size, count = len(pyramid), np.sum(stance)
+    matrix = np.zeros((size * count, 3 * count))
+    lower, upper = np.full(size * count, -np.inf), np.zeros(size * count)
+    for leg, limit in enumerate(limits[stance]):
+        for side in range(size):
+            for axis in range(3):
+                for ground in range(3):
+                    matrix[size * leg + side, 3 * leg + axis] += pyramid[side, ground] * ground_axes[axis, ground]
+        normal = size * leg + size - 1
+        lower[normal], upper[normal] = min(floor, limit), limit
+    return matrix, lower, upper

@@ -5,11 +5,11 @@ from typing import Literal
 import numpy as np
 
 from quadlab.configuration import register
-from quadlab.controllers.hierarchy.jit import compiled_entry
 from quadlab.controllers.limits.second_order import HeightRangeConfig, position_limit
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.task import TaskRows
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 from quadlab.robots.kinematics import Kinematics
 
 
@@ -27,33 +27,41 @@ class LimbExtensionLimit:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return one row in accelerations for each leg."""
-        jacobian, bias = _hip_height_rows(
+        jacobian, bias, heights, speeds = _hip_height_rows(
             kinematics.base_jacobian,
             kinematics.base_bias,
             kinematics.base_angular_velocity,
-            kinematics.hip_positions - kinematics.base_position,
+            kinematics.generalized_velocity,
+            kinematics.base_position,
+            (kinematics.hip_positions, kinematics.foot_positions),
         )
         return position_limit(
             jacobian,
             bias,
-            kinematics.hip_positions[:, 2] - kinematics.foot_positions[:, 2],
-            jacobian @ kinematics.generalized_velocity,
+            heights,
+            speeds,
             self.config.bounds(reference.standing_height),
             self.config.look_ahead_s,
         )
 
 
 @compiled_entry
-def _hip_height_rows(base_jacobian: Array, base_bias: Array, omega: Array, arms: Array) -> tuple[Array, Array]:
-    """Return J (4, 18) and J_dot u (4,) of the heights of the hips at ``arms`` (4, 3) from the base origin.
+def _hip_height_rows(
+    base_jacobian: Array, base_bias: Array, omega: Array, u: Array, base: Array, hips_and_feet: tuple[Array, Array]
+) -> tuple[Array, Array, Array, Array]:
+    """Return J (4, 18) and J_dot u (4,) of the heights of the hips, those over the feet (4,) and J u (4,).
 
-    The z components of r_ddot_B + omega_dot x arm + omega x (omega x arm).
+    The z components of r_ddot_B + omega_dot x arm + omega x (omega x arm), with the arms from ``base`` to the hips.
     """
-    jacobian, bias = np.empty((len(arms), base_jacobian.shape[1])), np.empty(len(arms))
-    for leg in range(len(arms)):
-        x, y, z = arms[leg]
+    hips, feet = hips_and_feet
+    jacobian, bias = np.empty((len(hips), base_jacobian.shape[1])), np.empty(len(hips))
+    heights, speeds = hips[:, 2] - feet[:, 2], np.zeros(len(hips))
+    for leg in range(len(hips)):
+        x, y, z = hips[leg, 0] - base[0], hips[leg, 1] - base[1], hips[leg, 2] - base[2]
         jacobian[leg] = base_jacobian[2] + y * base_jacobian[3] - x * base_jacobian[4]
         along = omega[0] * x + omega[1] * y + omega[2] * z
         centripetal = omega[2] * along - (omega[0] ** 2 + omega[1] ** 2 + omega[2] ** 2) * z
         bias[leg] = base_bias[2] + y * base_bias[3] - x * base_bias[4] + centripetal
-    return jacobian, bias
+        for column in range(len(u)):
+            speeds[leg] += jacobian[leg, column] * u[column]
+    return jacobian, bias, heights, speeds

@@ -3,6 +3,7 @@
 from quadlab.configuration import Positive, StrictModel
 from quadlab.controllers.tasks.task import TaskRows, Variable
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 
 
 class HeightRangeConfig(StrictModel):
@@ -41,7 +42,14 @@ def position_limit(
         bounds: r_min and r_max, (m,) or one number for all.
         dt: look-ahead k_t t_s in [s]; the larger, the softer.
     """
+    return TaskRows(Variable.ACCELERATION, jacobian, *_acceleration_bounds(bias, position, velocity, bounds, dt))
+
+
+@compiled_entry
+def _acceleration_bounds(
+    bias: Array, position: Array, velocity: Array, bounds: tuple[Array | float, Array | float], dt: float
+) -> tuple[Array, Array]:
+    """Return the bounds of J u_dot, (m,) each, that ``position_limit`` describes."""
     scale = 2.0 / dt**2
     offset = bias + scale * dt * velocity
-    lower, upper = (scale * (bound - position) - offset for bound in bounds)
-    return TaskRows(Variable.ACCELERATION, jacobian, lower, upper)
+    return scale * (bounds[0] - position) - offset, scale * (bounds[1] - position) - offset

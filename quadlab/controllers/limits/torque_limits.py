@@ -10,6 +10,8 @@ from quadlab.controllers.tasks.task import TaskRows, Variable
 from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.legs import JOINT_COUNT
 
+_IDENTITY = np.eye(JOINT_COUNT)
+
 
 @register("task", "torque_limits")
 class TorqueLimits:
@@ -31,4 +33,4 @@ class TorqueLimits:
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return twelve rows in torques."""
         limits = self.config.share * reference.torque_limits
-        return TaskRows(Variable.TORQUE, np.eye(JOINT_COUNT), -limits, limits)
+        return TaskRows(Variable.TORQUE, _IDENTITY, -limits, limits)

@@ -25,9 +25,7 @@ class BaseHeightTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return one row in accelerations."""
-        target = self.config.acceleration(
-            0.0,
-            -kinematics.base_linear_velocity[2:3],
-            np.array([reference.base_height - kinematics.base_position[2]]),
-        )
-        return equation(Variable.ACCELERATION, kinematics.base_jacobian[2:3], target - kinematics.base_bias[2:3])
+        error = reference.base_height - kinematics.base_position[2]
+        damping = self.config.derivative_per_s * kinematics.base_linear_velocity[2]
+        target = self.config.proportional_per_s2 * error - damping - kinematics.base_bias[2]
+        return equation(Variable.ACCELERATION, kinematics.base_jacobian[2:3], np.array([target]))

@@ -1,20 +1,33 @@
 """Orientation of the base, as yaw and as roll and pitch (Bellicoso 2016, Eq. 18, with three rotational rows)."""
 
+import math
 from typing import Literal
+
+import numpy as np
 
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.gains import TrackingGains
+from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
 from quadlab.controllers.tasks.task import TaskRows, Variable, equation
-from quadlab.geometry.rotations import Array, rotation_2d, rotation_log, yaw_of
+from quadlab.geometry.rotation_error import rotation_error
+from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 from quadlab.robots.kinematics import Kinematics
+
+_ZERO = np.zeros(3)
 
 
 def _angular_target(gains: TrackingGains, kinematics: Kinematics, reference: ControlReference) -> Array:
     """Return what J_omega u_dot shall be in world axes, (3,) in [rad/s^2]; the error is R_ref boxminus R."""
-    error = rotation_log(reference.base_rotation @ kinematics.base_rotation.T)
-    target = gains.acceleration(0.0, reference.base_angular_velocity - kinematics.base_angular_velocity, error)
-    return target - kinematics.base_bias[3:]
+    error = rotation_error(reference.base_rotation, kinematics.base_rotation)
+    return tracking_target(
+        gains.proportional_per_s2,
+        gains.derivative_per_s,
+        _ZERO,
+        (reference.base_angular_velocity, kinematics.base_angular_velocity),
+        (error, _ZERO),
+        kinematics.base_bias[3:],
+    )
 
 
 @register("task", "base_yaw")
@@ -50,5 +63,19 @@ class BaseRollPitchTask:
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
         target = _angular_target(self.config, kinematics, reference)
-        to_heading = rotation_2d(-yaw_of(kinematics.base_rotation))
-        return equation(Variable.ACCELERATION, to_heading @ kinematics.base_jacobian[3:5], to_heading @ target[:2])
+        matrix, turned = _in_heading_frame(kinematics.base_rotation, kinematics.base_jacobian, target)
+        return equation(Variable.ACCELERATION, matrix, turned)
+
+
+@compiled_entry
+def _in_heading_frame(rotation: Array, jacobian: Array, target: Array) -> tuple[Array, Array]:
+    """Return the roll and pitch rows, (2, 18), of ``jacobian``, (6, 18), and of ``target``, (2,) of (3,)."""
+    length = math.hypot(rotation[0, 0], rotation[1, 0])
+    cosine, sine = rotation[0, 0] / length, rotation[1, 0] / length
+    matrix, turned = np.empty((2, jacobian.shape[1])), np.empty(2)
+    for column in range(jacobian.shape[1]):
+        matrix[0, column] = cosine * jacobian[3, column] + sine * jacobian[4, column]
+        matrix[1, column] = cosine * jacobian[4, column] - sine * jacobian[3, column]
+    turned[0] = cosine * target[0] + sine * target[1]
+    turned[1] = cosine * target[1] - sine * target[0]
+    return matrix, turned

@@ -4,7 +4,7 @@ from typing import Literal
 
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.gains import TrackingGains
+from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
 from quadlab.controllers.tasks.task import TaskRows, Variable, equation
 from quadlab.robots.kinematics import Kinematics
 
@@ -26,9 +26,12 @@ class BasePositionTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
-        target = self.config.acceleration(
+        target = tracking_target(
+            self.config.proportional_per_s2,
+            self.config.derivative_per_s,
             reference.com_acceleration,
-            reference.com_velocity - kinematics.base_linear_velocity[:2],
-            reference.base_position - kinematics.base_position[:2],
+            (reference.com_velocity, kinematics.base_linear_velocity[:2]),
+            (reference.base_position, kinematics.base_position[:2]),
+            kinematics.base_bias[:2],
         )
-        return equation(Variable.ACCELERATION, kinematics.base_jacobian[:2], target - kinematics.base_bias[:2])
+        return equation(Variable.ACCELERATION, kinematics.base_jacobian[:2], target)

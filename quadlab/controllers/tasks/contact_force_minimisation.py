@@ -8,6 +8,9 @@ from quadlab.configuration import StrictModel, register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.task import TaskRows, Variable, equation
 from quadlab.robots.kinematics import Kinematics
+from quadlab.robots.legs import LEG_COUNT
+
+_IDENTITY, _ZERO = np.eye(3 * LEG_COUNT), np.zeros(3 * LEG_COUNT)
 
 
 @register("task", "contact_force_minimisation")
@@ -25,4 +28,4 @@ class ContactForceMinimisationTask:
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return three rows in forces for each standing leg."""
         size = 3 * len(reference.stance_legs)
-        return equation(Variable.FORCE, np.eye(size), np.zeros(size))
+        return equation(Variable.FORCE, _IDENTITY[:size, :size], _ZERO[:size])

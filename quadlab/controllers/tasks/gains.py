@@ -1,7 +1,10 @@
 """Gains of a tracked motion."""
 
+import numpy as np
+
 from quadlab.configuration import NonNegative, StrictModel
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 
 
 class TrackingGains(StrictModel):
@@ -18,3 +21,29 @@ class TrackingGains(StrictModel):
     def acceleration(self, feed_forward: Array | float, velocity_error: Array, position_error: Array) -> Array:
         """Return the commanded acceleration; errors are reference minus measured, all of one shape."""
         return feed_forward + self.derivative_per_s * velocity_error + self.proportional_per_s2 * position_error
+
+
+@compiled_entry
+def tracking_target(
+    proportional_per_s2: float,
+    derivative_per_s: float,
+    feed_forward: Array,
+    velocities: tuple[Array, Array],
+    positions: tuple[Array, Array],
+    bias: Array,
+) -> Array:
+    """Return what J u_dot shall be, (m,): the commanded acceleration less the ``bias`` J_dot u.
+
+    Args:
+        proportional_per_s2, derivative_per_s: gains, see ``TrackingGains``.
+        feed_forward: x_ddot_ref, (m,).
+        velocities, positions: reference and measured, (m,) each.
+        bias: (m,).
+    """
+    target = np.empty(len(bias))
+    for i in range(len(bias)):
+        velocity_error = velocities[0][i] - velocities[1][i]
+        position_error = positions[0][i] - positions[1][i]
+        commanded = feed_forward[i] + derivative_per_s * velocity_error + proportional_per_s2 * position_error
+        target[i] = commanded - bias[i]
+    return target

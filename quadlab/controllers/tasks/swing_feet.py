@@ -2,11 +2,16 @@
 
 from typing import Literal
 
+import numpy as np
+
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.gains import TrackingGains
 from quadlab.controllers.tasks.task import TaskRows, Variable, equation
-from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
+from quadlab.gaits.schedule import BoolArray
+from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
+from quadlab.robots.kinematics import Kinematics
 
 
 @register("task", "swing_feet")
@@ -23,11 +28,44 @@ class SwingFeetTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return three rows in accelerations for each leg in the air."""
-        target = self.config.acceleration(  # of all feet; standing ones are NaN and left out
-            reference.foot_accelerations,
-            reference.foot_velocities - kinematics.foot_velocities,
-            reference.foot_positions - kinematics.foot_positions,
+        matrix, target = _swing_rows(
+            self.config.proportional_per_s2,
+            self.config.derivative_per_s,
+            reference.stance,
+            (reference.foot_accelerations, reference.foot_velocities, reference.foot_positions),
+            (kinematics.foot_bias, kinematics.foot_velocities, kinematics.foot_positions),
+            kinematics.foot_jacobians,
         )
-        swing = ~reference.stance
-        matrix = kinematics.foot_jacobians[swing].reshape(-1, VELOCITY_SIZE)
-        return equation(Variable.ACCELERATION, matrix, (target - kinematics.foot_bias)[swing].ravel())
+        return equation(Variable.ACCELERATION, matrix, target)
+
+
+@compiled_entry
+def _swing_rows(
+    proportional: float,
+    derivative: float,
+    stance: BoolArray,
+    reference: tuple[Array, Array, Array],
+    measured: tuple[Array, Array, Array],
+    jacobians: Array,
+) -> tuple[Array, Array]:
+    """Return J_F (3 n, 18) and what J_F u_dot shall be, (3 n,), of the n legs in the air.
+
+    ``reference`` and ``measured`` are acceleration (measured: J_dot u), velocity and position of all feet, (4, 3) each.
+    """
+    legs, axes, size = jacobians.shape
+    swinging = legs - np.sum(stance)
+    matrix, target = np.empty((axes * swinging, size)), np.empty(axes * swinging)
+    row = 0
+    for leg in range(legs):
+        if stance[leg]:
+            continue
+        for axis in range(axes):
+            acceleration, velocity, position = (
+                reference[0][leg, axis] - measured[0][leg, axis],
+                reference[1][leg, axis] - measured[1][leg, axis],
+                reference[2][leg, axis] - measured[2][leg, axis],
+            )
+            target[row] = acceleration + derivative * velocity + proportional * position
+            matrix[row] = jacobians[leg, axis]
+            row += 1
+    return matrix, target

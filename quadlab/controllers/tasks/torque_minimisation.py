@@ -10,6 +10,8 @@ from quadlab.controllers.tasks.task import TaskRows, Variable, equation
 from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.legs import JOINT_COUNT
 
+_IDENTITY, _ZERO = np.eye(JOINT_COUNT), np.zeros(JOINT_COUNT)
+
 
 @register("task", "torque_minimisation")
 class TorqueMinimisationTask:
@@ -25,4 +27,4 @@ class TorqueMinimisationTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return twelve rows in torques."""
-        return equation(Variable.TORQUE, np.eye(JOINT_COUNT), np.zeros(JOINT_COUNT))
+        return equation(Variable.TORQUE, _IDENTITY, _ZERO)

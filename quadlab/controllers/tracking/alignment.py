@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quadlab.geometry.rotations import Array, rotation_2d, wrap_angle
+from quadlab.geometry.rotations import Array, wrap_angle
 
 
 @dataclass(frozen=True)
@@ -28,8 +28,9 @@ class PlanarPose:
 
     def vector(self, vector_in_plan: Array) -> Array:
         """Return a direction of the plan, (2,), in world axes."""
-        turned: Array = rotation_2d(self.yaw) @ vector_in_plan
-        return turned
+        cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
+        x, y = vector_in_plan.tolist()  # numbers of Python: a tick turns a dozen vectors
+        return np.array([cosine * x - sine * y, sine * x + cosine * y])
 
     def origin(self) -> Array:
         """Return x, y in [m] and yaw in [rad] of the plan frame in the world, (3,)."""
@@ -53,7 +54,7 @@ def feet_alignment(planned_feet: Array, measured_feet: Array) -> PlanarPose:
         measured_feet: the same feet in the world, (4, 2) in [m].
     """
     yaw = wrap_angle(_feet_heading(measured_feet) - _feet_heading(planned_feet))
-    return PlanarPose(planned_feet.mean(axis=0), measured_feet.mean(axis=0), yaw)
+    return PlanarPose(planned_feet.sum(axis=0) / len(planned_feet), measured_feet.sum(axis=0) / len(measured_feet), yaw)
 
 
 def base_alignment(

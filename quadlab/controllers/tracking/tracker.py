@@ -132,7 +132,7 @@ class MotionTracker:
         )
 
     def _update_terrain(self, kinematics: Kinematics) -> None:
-        points = np.stack([leg.stance_point for leg in self._contacts.legs])
+        points = np.array([leg.stance_point for leg in self._contacts.legs])
         newest = fit_plane(points, kinematics.com_position[:2])
         share = self.period_s / (self.config.torso.terrain_time_constant_s + self.period_s)
         self._terrain = blend(self._terrain, newest, share)
@@ -148,7 +148,7 @@ class MotionTracker:
             points[min(leg.foothold, len(points) - 1), :2]
             for points, leg in zip(self.plan.footholds, legs, strict=True)
         ]
-        return feet_alignment(np.stack(planned), np.stack([leg.stance_point[:2] for leg in legs]))
+        return feet_alignment(np.array(planned), np.array([leg.stance_point[:2] for leg in legs]))
 
     def _reference(
         self, plan_time_s: float, sample: PlanSample, torso: PlanarPose, kinematics: Kinematics, speed: float
@@ -169,9 +169,9 @@ class MotionTracker:
             base_height=self._terrain.height_at(kinematics.base_position[:2]) + self._base_height,
             base_rotation=torso_rotation(yaw, self._terrain, self.config.torso.slope_following),
             base_angular_velocity=np.array([0.0, 0.0, speed * sample.yaw_rate]),
-            foot_positions=np.stack([motion.position for motion in motions]),
-            foot_velocities=np.stack([motion.velocity for motion in motions]),
-            foot_accelerations=np.stack([motion.acceleration for motion in motions]),
+            foot_positions=np.array([motion.position for motion in motions]),
+            foot_velocities=np.array([motion.velocity for motion in motions]),
+            foot_accelerations=np.array([motion.acceleration for motion in motions]),
             stance=self._contacts.stance,
             normal_force_limits=np.array([self._force_limit(leg, plan_time_s) for leg in range(LEG_COUNT)]),
             torque_limits=self.robot.torque_limits,

@@ -1,4 +1,4 @@
-"""Compilation of the solver's inner functions with numba, typed for the type checker."""
+"""Compilation of inner functions with numba, typed for the type checker."""
 
 import zlib
 from collections.abc import Callable
