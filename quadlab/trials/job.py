@@ -74,18 +74,30 @@ def trial_directory(config: TrialConfig, options: RunOptions) -> Path:
     return Path(options.results_dir) / config.tag / trial_id(config)
 
 
+def finished_before(config: TrialConfig, options: RunOptions) -> JobOutcome | None:
+    """Return the outcome of a trial whose result is there, None if it has to be run.
+
+    Raises:
+        LogError: if the result cannot be read.
+    """
+    directory = trial_directory(config, options)
+    if options.force or not (directory / RESULT_FILE).is_file():
+        return None
+    return JobOutcome(directory, read_result(directory), skipped=True)
+
+
 def run_job(config: TrialConfig, options: RunOptions, progress: TrialProgress) -> JobOutcome:
     """Run the trial, unless its result is there and ``force`` is not set, and leave its files in its directory.
 
     Raises:
         QuadlabError: if the configuration names something that does not exist.
     """
+    before = finished_before(config, options)
+    if before is not None:
+        return before
     directory = trial_directory(config, options)
-    if not options.force and (directory / RESULT_FILE).is_file():
-        return JobOutcome(directory, read_result(directory), skipped=True)
-    directory.mkdir(parents=True, exist_ok=True)
     (directory / RESULT_FILE).unlink(missing_ok=True)
-    write_text(directory / CONFIG_FILE, yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False))
+    _write_config(config, directory)
     result = None
     with ErrorRecord(directory) as record, threadpool_limits(1):
         write_json(directory / MANIFEST_FILE, collect_manifest(config))
@@ -93,3 +105,26 @@ def run_job(config: TrialConfig, options: RunOptions, progress: TrialProgress) -
         write_result(directory, result)
     progress.finish(TrialStatus.ERROR if result is None else result.status)
     return JobOutcome(directory, result, failure=record.failure)
+
+
+def record_failure(config: TrialConfig, options: RunOptions, kind: str, message: str, output: str) -> JobOutcome:
+    """Leave ``error.json`` for a trial whose process ended without doing so, and return its outcome.
+
+    Args:
+        config, options: of the trial.
+        kind: a word for what happened.
+        message: one line.
+        output: what the process printed last.
+    """
+    directory = trial_directory(config, options)
+    content = {"type": kind, "message": message, "traceback": output.splitlines(), "argv": sys.argv}
+    try:
+        _write_config(config, directory)
+        write_json(directory / ERROR_FILE, content)
+    except OSError as error:  # a full disk, say, which may be why the process ended
+        return JobOutcome(directory, None, failure=f"{message} ({ERROR_FILE} cannot be written: {error})")
+    return JobOutcome(directory, None, failure=f"{message} (see {directory / ERROR_FILE})")
+
+
+def _write_config(config: TrialConfig, directory: Path) -> None:
+    write_text(directory / CONFIG_FILE, yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False))

@@ -5,6 +5,7 @@ import os
 import platform
 import subprocess
 import sys
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -120,7 +121,8 @@ def thread_environment() -> dict[str, str]:
     return {name: os.environ[name] for name in sorted(names)}
 
 
+@cache
 def installed_packages() -> dict[str, str]:
-    """Return the version of every installed distribution, by name."""
+    """Return the version of every installed distribution, by name; as of the first call in a process."""
     found = {distribution.name: distribution.version for distribution in metadata.distributions()}
     return dict(sorted(found.items(), key=lambda item: item[0].lower()))

@@ -1,0 +1,138 @@
+"""Trials side by side: what ``run_job`` does, many times, whatever happens to any of them."""
+
+from collections.abc import Generator, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+
+from quadlab.errors import LogError
+from quadlab.sweeps.job import Event, Job, JobStatus, Notice, Outcome, Started
+from quadlab.sweeps.limits import PoolConfig
+from quadlab.sweeps.pool import run_pool
+from quadlab.sweeps.progress import SilentSweep, SweepProgress
+from quadlab.sweeps.warm_up import import_trials, warm_up, warm_up_trials
+from quadlab.trials.config import RunOptions, TrialConfig
+from quadlab.trials.identity import trial_id
+from quadlab.trials.job import JobOutcome, finished_before, record_failure, run_job, trial_directory
+from quadlab.trials.progress import SilentProgress
+
+
+@dataclass(frozen=True)
+class SweepTrial:
+    """A trial of a sweep.
+
+    Attributes:
+        name: what tells it from the others, for people, e.g. "gait=walk seed=3".
+        config: the trial.
+    """
+
+    name: str
+    config: TrialConfig
+
+
+@dataclass(frozen=True)
+class SweepOutcome:
+    """What came of a trial of a sweep.
+
+    Attributes:
+        trial: that was asked for.
+        job: its files, its result or why there is none.
+        wall_s: of its worker in [s]; 0 if the result was there before.
+        peak_memory_mib: of its worker in [MiB]; 0 if the result was there before.
+    """
+
+    trial: SweepTrial
+    job: JobOutcome
+    wall_s: float = 0.0
+    peak_memory_mib: float = 0.0
+
+
+def run_trials(
+    trials: Sequence[SweepTrial], options: RunOptions, pool: PoolConfig, progress: SweepProgress | None = None
+) -> Generator[SweepOutcome, None, None]:
+    """Run trials, each in a process of its own, and yield what came of them as they end.
+
+    The results do not depend on the number of workers. A trial whose result is there already is not run again; of
+    trials that are equal only the first is run. Whatever ends a worker becomes ``error.json`` in the trial's folder.
+    Leaving the loop early ends all workers.
+
+    Args:
+        trials: validated.
+        options: of all of them.
+        pool: limits.
+        progress: told what happens; silent by default.
+
+    Raises:
+        PoolError: if no process can be started.
+    """
+    shown = progress or SilentSweep()
+    unique = unique_trials(trials)
+    shown.begin(len(unique), pool.worker_count)
+    try:
+        if len(unique) < len(trials):
+            shown.notice(f"{len(trials) - len(unique)} trials are equal to others; they are run once")
+        for outcome in _outcomes(unique, options, pool, shown):
+            shown.ended(outcome.trial.name, outcome.job)
+            yield outcome
+    finally:
+        shown.end()
+
+
+def unique_trials(trials: Sequence[SweepTrial]) -> list[SweepTrial]:
+    """Return the first of each set of equal trials, in the order given."""
+    found: dict[str, SweepTrial] = {}
+    for trial in trials:
+        found.setdefault(trial_id(trial.config), trial)
+    return list(found.values())
+
+
+def _outcomes(
+    trials: Sequence[SweepTrial], options: RunOptions, pool: PoolConfig, shown: SweepProgress
+) -> Generator[SweepOutcome, None, None]:
+    missing = []
+    for trial in trials:
+        job = _before(trial, options)
+        if job is None:
+            missing.append(trial)
+        else:
+            yield SweepOutcome(trial, job)
+    if missing:
+        with closing(_run(missing, options, pool, shown)) as outcomes:
+            yield from outcomes
+
+
+def _before(trial: SweepTrial, options: RunOptions) -> JobOutcome | None:
+    """Return the outcome of a trial that need not be run, or cannot since its result is there but unreadable."""
+    try:
+        return finished_before(trial.config, options)
+    except LogError as error:
+        failure = f"{error}; remove it, or add force=true to run the trial again"
+        return JobOutcome(trial_directory(trial.config, options), None, failure=failure)
+
+
+def _run(
+    trials: Sequence[SweepTrial], options: RunOptions, pool: PoolConfig, shown: SweepProgress
+) -> Generator[SweepOutcome, None, None]:
+    def tell(event: Event) -> None:
+        match event:
+            case Started(number):
+                shown.started(trials[number].name)
+            case Notice(text):
+                shown.notice(text)
+
+    jobs = (Job(trial.name, run_job, (trial.config, options, SilentProgress())) for trial in trials)
+    preloads = (
+        Job("warming up", warm_up, (warm_up_trials(trial.config for trial in trials),)),
+        Job("importing", import_trials),
+    )
+    shown.notice("loading")
+    with closing(run_pool(jobs, pool, tell, preloads)) as outcomes:
+        for outcome in outcomes:
+            trial = trials[outcome.number]
+            yield SweepOutcome(trial, _job(trial, options, outcome), outcome.wall_s, outcome.peak_memory_mib)
+
+
+def _job(trial: SweepTrial, options: RunOptions, outcome: Outcome) -> JobOutcome:
+    if outcome.status is JobStatus.RETURNED:
+        job: JobOutcome = outcome.value
+        return job
+    return record_failure(trial.config, options, outcome.status.value, outcome.reason, outcome.output)

@@ -1,0 +1,29 @@
+"""Sweeps of very short trials."""
+
+from pathlib import Path
+
+from quadlab.sweeps.limits import PoolConfig
+from quadlab.sweeps.trial_pool import SweepTrial, run_trials
+from quadlab.trials.compose import compose_trial
+from quadlab.trials.config import RunOptions
+from quadlab.trials.job import JobOutcome
+
+STANDING = (
+    "gait=stand",
+    "command=in_place",
+    "scenario=perturbed",
+    "duration_s=0.2",
+    "gait.cycles.0.stride_duration_s=0.2",
+)
+FREE = PoolConfig(workers=2, memory_limit_gib=None, time_limit_s=None)
+
+
+def standing(count: int, *overrides: str) -> list[SweepTrial]:
+    """Return trials that stand for a moment, from different starts."""
+    return [SweepTrial(f"seed={s}", compose_trial([*STANDING, f"seed={s}", *overrides])) for s in range(count)]
+
+
+def run(trials: list[SweepTrial], folder: Path, pool: PoolConfig = FREE) -> dict[str, JobOutcome]:
+    """Run trials into ``folder`` and return their outcomes by name."""
+    options = RunOptions(force=False, results_dir=str(folder))
+    return {outcome.trial.name: outcome.job for outcome in run_trials(trials, options, pool)}

@@ -1,0 +1,69 @@
+"""A sweep gives what single trials give, whatever the number of workers, and loses none of them."""
+
+import json
+from pathlib import Path
+
+import pytest
+from sweep_cases import FREE, run, standing
+
+from quadlab.sweeps.trial_pool import SweepTrial, run_trials
+from quadlab.trials.config import RunOptions
+from quadlab.trials.job import run_job, trial_directory
+from quadlab.trials.progress import SilentProgress
+from quadlab.trials.result import RESULT_FILE
+
+
+def test_results_are_those_of_single_runs_whatever_the_number_of_workers(tmp_path: Path) -> None:
+    trials = standing(3)
+    alone = {
+        trial.name: run_job(trial.config, RunOptions(force=False, results_dir=str(tmp_path)), SilentProgress()).result
+        for trial in trials
+    }
+    for workers in (1, 2):
+        outcomes = run(trials, tmp_path / str(workers), FREE.model_copy(update={"workers": workers}))
+        assert len(outcomes) == 3
+        for name, job in outcomes.items():
+            assert job.result is not None
+            assert alone[name] is not None
+            assert job.result.state_sha256 == alone[name].state_sha256  # type: ignore[union-attr]
+
+
+def test_finished_trials_are_not_run_again_and_equal_ones_are_run_once(tmp_path: Path) -> None:
+    first = run(standing(1), tmp_path)
+    log = next(tmp_path.rglob("trial.mcap"))
+    written = log.stat().st_mtime_ns
+    again = run([*standing(2), SweepTrial("the same", standing(2)[1].config)], tmp_path)
+    assert not first["seed=0"].skipped
+    assert {name: job.skipped for name, job in again.items()} == {"seed=0": True, "seed=1": False}
+    assert log.stat().st_mtime_ns == written
+
+
+def test_trial_that_takes_too_long_leaves_its_reason_and_no_result(tmp_path: Path) -> None:
+    trials = standing(1, "duration_s=60")
+    job = run(trials, tmp_path, FREE.model_copy(update={"time_limit_s": 1.0}))["seed=0"]
+    assert job.result is None
+    assert str(job.failure).startswith("ran longer than 1 s")
+    assert json.loads((job.directory / "error.json").read_text())["type"] == "timed_out"
+    assert (job.directory / "config.yaml").is_file()
+    assert not (job.directory / RESULT_FILE).exists()
+
+
+def test_result_that_cannot_be_read_is_reported_and_left_alone(tmp_path: Path) -> None:
+    trials = standing(2)
+    directory = trial_directory(trials[0].config, RunOptions(force=False, results_dir=str(tmp_path)))
+    directory.mkdir(parents=True)
+    (directory / RESULT_FILE).write_text('{"trial_id": ')
+    outcomes = run(trials, tmp_path)
+    assert "not JSON" in str(outcomes["seed=0"].failure)
+    assert outcomes["seed=1"].result is not None
+    assert (directory / RESULT_FILE).read_text() == '{"trial_id": '
+
+
+def test_mistake_that_only_the_trial_finds_is_its_failure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
+    trial = standing(1)[0]
+    robot = trial.config.robot.model_copy(update={"urdf": "nowhere.urdf"})
+    broken = SweepTrial("broken", trial.config.model_copy(update={"robot": robot}))
+    (outcome,) = run_trials([broken], RunOptions(force=False, results_dir=str(tmp_path / "results")), FREE)
+    assert outcome.job.result is None
+    assert "nowhere.urdf" in str(outcome.job.failure)
