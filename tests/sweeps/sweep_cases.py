@@ -10,10 +10,10 @@ from quadlab.trials.job import JobOutcome
 
 STANDING = (
     "gait=stand",
+    "gait.cycles.0.stride_duration_s=0.2",
     "command=in_place",
     "scenario=perturbed",
     "duration_s=0.2",
-    "gait.cycles.0.stride_duration_s=0.2",
 )
 FREE = PoolConfig(workers=2, memory_limit_gib=None, time_limit_s=None)
 
