@@ -2,7 +2,7 @@
 
 import sys
 
-from quadlab.trials.main import main
+from quadlab.sweeps.main import main
 
 if __name__ == "__main__":
     sys.exit(main())

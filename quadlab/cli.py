@@ -64,7 +64,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(overrides: Sequence[str]) -> int:
-    from quadlab.trials.main import main as run_main  # noqa: PLC0415
+    from quadlab.sweeps.main import main as run_main  # noqa: PLC0415
 
     return run_main(overrides)
 

@@ -16,6 +16,8 @@ from quadlab.trials.override_problems import COMPOSITION_ERRORS, UNTYPED_COMPOSI
 from quadlab.trials.problems import validation_problems
 
 ROOT_NAME = "trial"
+SWEEP_KEYS = ("pool", "shard")
+"""What a document says about running many trials; a single trial has no use for it."""
 
 _Model = TypeVar("_Model", bound=StrictModel)
 
@@ -51,15 +53,42 @@ def split_document(document: DictConfig) -> tuple[TrialConfig, RunOptions]:
     Raises:
         ConfigurationError: with one line for each mistake.
     """
+    values = plain_values(document)
+    for key in SWEEP_KEYS:
+        values.pop(key, None)
+    options = {key: values.pop(key) for key in RunOptions.model_fields if key in values}
+    return validated(TrialConfig, values), validated(RunOptions, options)
+
+
+def sweep_values(document: DictConfig) -> dict[str, Any]:
+    """Return what a composed document says about running many trials.
+
+    Raises:
+        ConfigurationError: if a value cannot be resolved.
+    """
+    values = plain_values(document)
+    return {key: values[key] for key in SWEEP_KEYS if key in values}
+
+
+def plain_values(document: DictConfig) -> dict[str, Any]:
+    """Return a composed document as dictionaries, lists and values.
+
+    Raises:
+        ConfigurationError: if a value cannot be resolved.
+    """
     try:
         values: Any = OmegaConf.to_container(document, resolve=True, throw_on_missing=True)
     except OmegaConfBaseException as error:
         raise ConfigurationError(composition_problem(error)) from error
-    options = {key: values.pop(key) for key in RunOptions.model_fields if key in values}
-    return _validated(TrialConfig, values), _validated(RunOptions, options)
+    return dict(values)
 
 
-def _validated(model: type[_Model], values: dict[str, Any]) -> _Model:
+def validated(model: type[_Model], values: dict[str, Any]) -> _Model:
+    """Return ``values`` as a ``model``.
+
+    Raises:
+        ConfigurationError: with one line for each mistake.
+    """
     try:
         return model.model_validate(values)
     except ValidationError as error:

@@ -78,15 +78,15 @@ def run_jobs(arguments: Sequence[str] | None, job: Callable[[DictConfig], int]) 
     except JobFailedError as error:
         return error.exit_code
     except KeyboardInterrupt:
-        _complain("interrupted")
+        complain("interrupted")
         return EXIT_INTERRUPTED
     except COMPOSITION_ERRORS as error:
-        _complain(composition_problem(error))
+        complain(composition_problem(error))
         return EXIT_USAGE
     except UNTYPED_COMPOSITION_ERRORS as error:
         if codes:  # a job had begun: this is no mistake in an override
             raise
-        _complain(composition_problem(error))
+        complain(composition_problem(error))
         return EXIT_USAGE
     return max(codes, default=EXIT_OK)
 
@@ -101,10 +101,10 @@ def run_document(document: DictConfig) -> int:
     try:
         outcome = run_job(*split_document(document), terminal_progress())
     except QuadlabError as error:
-        _complain(str(error))
+        complain(str(error))
         return EXIT_USAGE
     if outcome.failure:
-        _complain(outcome.failure)
+        complain(outcome.failure)
         return EXIT_FAILED
     sys.stdout.write(job_report(outcome))
     return EXIT_OK
@@ -121,12 +121,13 @@ def plan_document(document: DictConfig, draw: DrawPlan) -> int:
         if job.outcome.plan is not None:
             draw(job.outcome.plan, job.directory)
     except QuadlabError as error:
-        _complain(str(error))
+        complain(str(error))
         return EXIT_USAGE
     sys.stdout.write(plan_report(job))
     return EXIT_OK
 
 
-def _complain(problem: str) -> None:
+def complain(problem: str) -> None:
+    """Print what is wrong to standard error."""
     for line in problem.splitlines():
         sys.stderr.write(f"quadlab: {line}\n")

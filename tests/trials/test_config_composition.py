@@ -9,7 +9,9 @@ from quadlab.paths import CONF_DIR
 from quadlab.trials.compose import compose_document, compose_trial, split_document
 
 OPTIONS = sorted(
-    f"{path.parent.name}={path.stem}" for path in CONF_DIR.glob("*/*.yaml") if path.parent.name != "experiment"
+    f"{path.parent.name}={path.stem}"
+    for path in CONF_DIR.glob("*/*.yaml")
+    if path.parent.name not in ("experiment", "launcher")
 )
 EXPERIMENTS = sorted(path.stem for path in CONF_DIR.glob("experiment/*.yaml"))
 LONG_ENOUGH = "duration_s=60"

@@ -1,0 +1,71 @@
+"""The command ``run``: one trial, a sweep on this machine (-m), or a sweep elsewhere (-m launcher=...).
+
+Exit codes: 0 every trial has a result, whatever it is; 1 the program failed in some of them; 2 the configuration is
+wrong, nothing was run; 130 interrupted.
+"""
+
+import sys
+from collections.abc import Sequence
+from contextlib import closing
+from typing import TYPE_CHECKING
+
+from quadlab.errors import ConfigurationError, QuadlabError
+from quadlab.trials.main import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, EXIT_USAGE, complain
+from quadlab.trials.main import main as run_by_hydra
+
+if TYPE_CHECKING:
+    from quadlab.sweeps.progress import SweepProgress
+
+MULTIRUN_FLAGS = frozenset({"-m", "--multirun"})
+_ELSEWHERE = ("launcher=", "hydra/")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run what the arguments say and return the exit code.
+
+    Args:
+        arguments: overrides and Hydra's flags; those of the process by default.
+    """
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    return run_sweep(given) if is_local_sweep(given) else run_by_hydra(given)
+
+
+def is_local_sweep(arguments: Sequence[str]) -> bool:
+    """Whether the arguments ask for a sweep in the pool of this machine, and for nothing but to run it."""
+    flags = {argument for argument in arguments if argument.startswith("-")}
+    elsewhere = [item for item in arguments if item.startswith(_ELSEWHERE) and item != "launcher=pool"]
+    return bool(flags) and flags <= MULTIRUN_FLAGS and not elsewhere
+
+
+def run_sweep(arguments: Sequence[str]) -> int:
+    """Check all trials of a sweep, run them side by side and return the exit code."""
+    from quadlab.sweeps.terminal import terminal_sweep  # noqa: PLC0415
+
+    sys.argv = [sys.argv[0], *arguments]
+    overrides = [argument for argument in arguments if argument not in MULTIRUN_FLAGS]
+    try:
+        return _run(overrides, terminal_sweep())
+    except ConfigurationError as error:
+        complain(str(error))
+        return EXIT_USAGE
+    except (QuadlabError, OSError) as error:
+        complain(str(error))
+        return EXIT_FAILED
+    except KeyboardInterrupt:
+        complain("interrupted; the same command goes on where it stopped")
+        return EXIT_INTERRUPTED
+
+
+def _run(overrides: Sequence[str], progress: "SweepProgress") -> int:
+    from quadlab.sweeps.multirun import check_sweep, sweep_points  # noqa: PLC0415
+    from quadlab.sweeps.trial_pool import run_trials  # noqa: PLC0415
+
+    points = sweep_points(overrides)
+    progress.notice(f"checking {len(points)} trials")
+    sweep = check_sweep(points)
+    trials = sweep.options.shard.of(sweep.trials) if sweep.options.shard else sweep.trials
+    failures = 0
+    with closing(run_trials(trials, sweep.run, sweep.options.pool, progress)) as outcomes:
+        for outcome in outcomes:
+            failures += outcome.job.result is None
+    return EXIT_FAILED if failures else EXIT_OK

@@ -1,0 +1,112 @@
+"""A sweep on the command line: the trials that ``-m gait=walk,trot seed=0,1,2`` asks for."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from hydra import compose, initialize_config_dir
+from hydra.core.global_hydra import GlobalHydra
+from hydra.core.override_parser.overrides_parser import OverridesParser
+from hydra.core.override_parser.types import Override
+
+from quadlab.errors import ConfigurationError
+from quadlab.paths import CONF_DIR
+from quadlab.sweeps.options import SweepOptions, sweep_options
+from quadlab.sweeps.trial_pool import SweepTrial
+from quadlab.trials.compose import ROOT_NAME, compose_document, split_document
+from quadlab.trials.config import RunOptions
+from quadlab.trials.override_problems import COMPOSITION_ERRORS, UNTYPED_COMPOSITION_ERRORS, composition_problem
+
+Choice = tuple[tuple[str, str], ...]
+"""The values of one key: (key, override) pairs."""
+
+
+@dataclass(frozen=True)
+class SweepPoint:
+    """One combination of a sweep.
+
+    Attributes:
+        name: the overrides that differ between the points, e.g. "gait=walk seed=0".
+        overrides: all of them, none with several values.
+    """
+
+    name: str
+    overrides: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A sweep, checked completely.
+
+    Attributes:
+        trials: all of them, those of other shards included.
+        run: how to run each trial.
+        options: how to run all of them.
+    """
+
+    trials: tuple[SweepTrial, ...]
+    run: RunOptions
+    options: SweepOptions
+
+
+def sweep_points(overrides: Sequence[str]) -> list[SweepPoint]:
+    """Return all combinations of overrides such as ``seed=0,1,2``, the last one changing fastest.
+
+    What an experiment file lists under ``hydra.sweeper.params`` is varied too.
+
+    Args:
+        overrides: as on the command line; of several for one key the last one counts.
+
+    Raises:
+        ConfigurationError: if one of them cannot be read.
+    """
+    try:
+        with initialize_config_dir(version_base="1.3", config_dir=str(CONF_DIR)):
+            parser = OverridesParser.create(GlobalHydra.instance().config_loader())
+            given = parser.parse_overrides([*overrides])
+            fixed = [item.input_line for item in given if not item.is_sweep_override()]
+            document = compose(ROOT_NAME, overrides=fixed, return_hydra_config=True)
+            listed = parser.parse_overrides([f"{k}={v}" for k, v in (document.hydra.sweeper.params or {}).items()])
+            choices = {item.get_key_element(): _choice(item) for item in (*listed, *given)}
+    except (*COMPOSITION_ERRORS, *UNTYPED_COMPOSITION_ERRORS) as error:
+        raise ConfigurationError(composition_problem(error)) from error
+    return [_point(combination, choices) for combination in product(*choices.values())]
+
+
+def check_sweep(points: Sequence[SweepPoint]) -> Sweep:
+    """Return the sweep of all points, every trial validated: nothing runs if anything is wrong.
+
+    Raises:
+        ConfigurationError: with one line for each different mistake.
+    """
+    trials: list[SweepTrial] = []
+    options: dict[tuple[RunOptions, SweepOptions], None] = {}
+    problems: dict[str, None] = {}
+    for point in points:
+        try:
+            document = compose_document(point.overrides)
+            config, run = split_document(document)
+            options[run, sweep_options(document)] = None
+            trials.append(SweepTrial(point.name, config))
+        except ConfigurationError as error:
+            problems |= dict.fromkeys(str(error).splitlines())
+    if len(options) > 1:
+        problems["force, results_dir, pool and shard are those of the whole sweep: give one value each"] = None
+    if problems:
+        raise ConfigurationError("\n".join(problems))
+    ((run, of_sweep),) = options
+    return Sweep(tuple(trials), run, of_sweep)
+
+
+def _choice(override: Override) -> Choice:
+    key = override.get_key_element()
+    if not override.is_sweep_override():
+        return ((key, override.input_line),)
+    if not override.is_discrete_sweep():
+        raise ConfigurationError(f"{override.input_line}: an interval has no list of values; write {key}=a,b,c")
+    return tuple((key, f"{key}={value}") for value in override.sweep_string_iterator())
+
+
+def _point(combination: Sequence[tuple[str, str]], choices: dict[str, Choice]) -> SweepPoint:
+    name = " ".join(override for key, override in combination if len(choices[key]) > 1)
+    return SweepPoint(name or "the only trial", tuple(override for _, override in combination))
