@@ -37,7 +37,7 @@ class Shard(StrictModel):
     @model_validator(mode="after")
     def _in_range(self) -> Self:
         if not 0 <= self.index < self.count:
-            raise ValueError(f"{self.index}/{self.count} does not exist; the parts of {self.count} begin with 0")
+            raise ValueError(f"{self.index}/{self.count} does not exist; the first of n is 0/n")
         return self
 
     def of(self, trials: Sequence[SweepTrial]) -> list[SweepTrial]:
