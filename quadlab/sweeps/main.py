@@ -1,11 +1,11 @@
-"""The command ``run``: one trial, a sweep on this machine (-m), or a sweep elsewhere (-m launcher=...).
+"""The command ``run``: one trial, or with -m a sweep on this machine, on SLURM or by any launcher of Hydra.
 
 Exit codes: 0 every trial has a result, whatever it is; 1 the program failed in some of them; 2 the configuration is
 wrong, nothing was run; 130 interrupted.
 """
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from contextlib import closing
 from typing import TYPE_CHECKING
 
@@ -14,10 +14,12 @@ from quadlab.trials.main import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, EXIT_USA
 from quadlab.trials.main import main as run_by_hydra
 
 if TYPE_CHECKING:
+    from quadlab.sweeps.multirun import Sweep
     from quadlab.sweeps.progress import SweepProgress
+    from quadlab.sweeps.trial_pool import SweepOutcome, SweepTrial
 
 MULTIRUN_FLAGS = frozenset({"-m", "--multirun"})
-_ELSEWHERE = ("launcher=", "hydra/")
+_CHECKED_FIRST = ("launcher=pool", "launcher=slurm")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -27,14 +29,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: overrides and Hydra's flags; those of the process by default.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
-    return run_sweep(given) if is_local_sweep(given) else run_by_hydra(given)
+    return run_sweep(given) if is_sweep(given) else run_by_hydra(given)
 
 
-def is_local_sweep(arguments: Sequence[str]) -> bool:
-    """Whether the arguments ask for a sweep in the pool of this machine, and for nothing but to run it."""
+def is_sweep(arguments: Sequence[str]) -> bool:
+    """Whether the arguments ask for a sweep by quadlab's own launchers, and for nothing but to run it."""
     flags = {argument for argument in arguments if argument.startswith("-")}
-    elsewhere = [item for item in arguments if item.startswith(_ELSEWHERE) and item != "launcher=pool"]
-    return bool(flags) and flags <= MULTIRUN_FLAGS and not elsewhere
+    by_hydra = [item for item in arguments if item.startswith(("launcher=", "hydra/")) and item not in _CHECKED_FIRST]
+    return bool(flags) and flags <= MULTIRUN_FLAGS and not by_hydra
 
 
 def run_sweep(arguments: Sequence[str]) -> int:
@@ -58,14 +60,28 @@ def run_sweep(arguments: Sequence[str]) -> int:
 
 def _run(overrides: Sequence[str], progress: "SweepProgress") -> int:
     from quadlab.sweeps.multirun import check_sweep, sweep_points  # noqa: PLC0415
-    from quadlab.sweeps.trial_pool import run_trials  # noqa: PLC0415
+    from quadlab.sweeps.trial_pool import unique_trials  # noqa: PLC0415
 
     points = sweep_points(overrides)
     progress.notice(f"checking {len(points)} trials")
     sweep = check_sweep(points)
-    trials = sweep.options.shard.of(sweep.trials) if sweep.options.shard else sweep.trials
+    trials = unique_trials(sweep.trials)
+    if sweep.options.shard:
+        trials = sweep.options.shard.of(trials)
     failures = 0
-    with closing(run_trials(trials, sweep.run, sweep.options.pool, progress)) as outcomes:
+    with closing(_start(trials, sweep, progress)) as outcomes:
         for outcome in outcomes:
             failures += outcome.job.result is None
     return EXIT_FAILED if failures else EXIT_OK
+
+
+def _start(
+    trials: "Sequence[SweepTrial]", sweep: "Sweep", progress: "SweepProgress"
+) -> "Generator[SweepOutcome, None, None]":
+    from quadlab.sweeps.slurm import run_on_slurm  # noqa: PLC0415
+    from quadlab.sweeps.trial_pool import run_trials  # noqa: PLC0415
+
+    pool, slurm = sweep.options.pool, sweep.options.slurm
+    if slurm:
+        return run_on_slurm(trials, sweep.run, pool, slurm, progress)
+    return run_trials(trials, sweep.run, pool, progress)

@@ -80,22 +80,21 @@ def check_sweep(points: Sequence[SweepPoint]) -> Sweep:
         ConfigurationError: with one line for each different mistake.
     """
     trials: list[SweepTrial] = []
-    options: dict[tuple[RunOptions, SweepOptions], None] = {}
+    options: list[tuple[RunOptions, SweepOptions]] = []
     problems: dict[str, None] = {}
     for point in points:
         try:
             document = compose_document(point.overrides)
             config, run = split_document(document)
-            options[run, sweep_options(document)] = None
+            options.append((run, sweep_options(document)))
             trials.append(SweepTrial(point.name, config))
         except ConfigurationError as error:
             problems |= dict.fromkeys(str(error).splitlines())
-    if len(options) > 1:
-        problems["force, results_dir, pool and shard are those of the whole sweep: give one value each"] = None
+    if any(other != options[0] for other in options):
+        problems["force, results_dir, pool, slurm and shard are those of the whole sweep: give one value each"] = None
     if problems:
         raise ConfigurationError("\n".join(problems))
-    ((run, of_sweep),) = options
-    return Sweep(tuple(trials), run, of_sweep)
+    return Sweep(tuple(trials), *options[0])
 
 
 def _choice(override: Override) -> Choice:

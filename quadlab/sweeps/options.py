@@ -2,17 +2,17 @@
 
 import re
 from collections.abc import Sequence
-from typing import Any, Self, TypeVar
+from typing import Any, Self
 
 from omegaconf import DictConfig
 from pydantic import model_validator
 
 from quadlab.configuration import StrictModel
-from quadlab.errors import ConfigurationError
 from quadlab.sweeps.limits import PoolConfig
+from quadlab.sweeps.slurm import SlurmConfig
+from quadlab.sweeps.trial_pool import SweepTrial
 from quadlab.trials.compose import sweep_values, validated
-
-_Item = TypeVar("_Item")
+from quadlab.trials.identity import trial_id
 
 
 class Shard(StrictModel):
@@ -31,20 +31,22 @@ class Shard(StrictModel):
     def _from_text(cls, value: Any) -> Any:
         match = re.fullmatch(r"(\d+)/(\d+)", str(value))
         if not match:
-            raise ConfigurationError(f"expected i/n such as 0/4, got '{value}'")
+            raise ValueError("expected i/n such as 0/4")
         return {"index": int(match[1]), "count": int(match[2])}
 
     @model_validator(mode="after")
     def _in_range(self) -> Self:
         if not 0 <= self.index < self.count:
-            raise ConfigurationError(
-                f"{self.index}/{self.count} does not exist; the parts of {self.count} begin with 0"
-            )
+            raise ValueError(f"{self.index}/{self.count} does not exist; the first of n is 0/n")
         return self
 
-    def of(self, items: Sequence[_Item]) -> list[_Item]:
-        """Return every ``count``-th item: together the shards have each item exactly once."""
-        return list(items[self.index :: self.count])
+    def of(self, trials: Sequence[SweepTrial]) -> list[SweepTrial]:
+        """Return this part of different ``trials``, in their order: together the parts have each of them once.
+
+        They are dealt out in the order of their ids, so that no part gets all trials with one value of a factor.
+        """
+        order = sorted(range(len(trials)), key=lambda number: trial_id(trials[number].config))
+        return [trials[number] for number in sorted(order[self.index :: self.count])]
 
 
 class SweepOptions(StrictModel):
@@ -52,10 +54,12 @@ class SweepOptions(StrictModel):
 
     Attributes:
         pool: limits of the processes.
-        shard: the part that is run here; null runs all of it.
+        slurm: how to give it to SLURM; null runs it here.
+        shard: the part that is run; null runs all of it.
     """
 
     pool: PoolConfig
+    slurm: SlurmConfig | None = None
     shard: Shard | None
 
 

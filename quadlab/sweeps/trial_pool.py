@@ -85,16 +85,21 @@ def unique_trials(trials: Sequence[SweepTrial]) -> list[SweepTrial]:
     return list(found.values())
 
 
+def split_finished(trials: Sequence[SweepTrial], options: RunOptions) -> tuple[list[SweepOutcome], list[SweepTrial]]:
+    """Return the outcomes of the trials that need not be run, and the trials that have to be.
+
+    A result that is there but cannot be read is an outcome too: a failure, since nobody asked to replace it.
+    """
+    found = [(trial, _before(trial, options)) for trial in trials]
+    finished = [SweepOutcome(trial, job) for trial, job in found if job is not None]
+    return finished, [trial for trial, job in found if job is None]
+
+
 def _outcomes(
     trials: Sequence[SweepTrial], options: RunOptions, pool: PoolConfig, shown: SweepProgress
 ) -> Generator[SweepOutcome, None, None]:
-    missing = []
-    for trial in trials:
-        job = _before(trial, options)
-        if job is None:
-            missing.append(trial)
-        else:
-            yield SweepOutcome(trial, job)
+    finished, missing = split_finished(trials, options)
+    yield from finished
     if missing:
         with closing(_run(missing, options, pool, shown)) as outcomes:
             yield from outcomes

@@ -16,7 +16,7 @@ from quadlab.trials.override_problems import COMPOSITION_ERRORS, UNTYPED_COMPOSI
 from quadlab.trials.problems import validation_problems
 
 ROOT_NAME = "trial"
-SWEEP_KEYS = ("pool", "shard")
+SWEEP_KEYS = ("pool", "slurm", "shard")
 """What a document says about running many trials; a single trial has no use for it."""
 
 _Model = TypeVar("_Model", bound=StrictModel)
