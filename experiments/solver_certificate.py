@@ -1,6 +1,6 @@
 """Certificates of every solver on hierarchies of closed-loop trials; goes to results/solver_certificate/.
 
-    python experiments/solver_certificate.py [--jobs 2] [--stride 6] [--cascade-stride 5]
+    python experiments/solver_certificate.py [--jobs 2] [--stride 6] [--cascade-stride 10]
 
 Walk, trot, pushed trot, a plank and a transition with the default controller and both papers' priorities, and the step
 down of Bellicoso 2016. Failures are counted in the table; exit code 1 if a lexicographic one is not certified.
@@ -39,7 +39,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--jobs", type=int, default=2, help="trials at a time")
     parser.add_argument("--stride", type=int, default=6, help="every so many ticks one hierarchy is judged")
-    parser.add_argument("--cascade-stride", type=int, default=5, help="every so manieth of them is given to cascades")
+    parser.add_argument("--cascade-stride", type=int, default=10, help="every so manieth of them is given to cascades")
     arguments = parser.parse_args()
     strides = (arguments.stride, arguments.cascade_stride)
     jobs = [Job(name, judge_trial, (name, overrides, *strides)) for name, overrides in TRIALS.items()]

@@ -7,9 +7,10 @@ import numpy as np
 import pinocchio as pin
 
 from quadlab.geometry.rotations import Array
-from quadlab.robots.legs import JOINT_COUNT, LEG_COUNT, joints_of
+from quadlab.jit import compiled_entry
+from quadlab.robots.legs import JOINT_COUNT, JOINTS_PER_LEG, LEG_COUNT
 from quadlab.robots.model import RobotModel
-from quadlab.robots.pinocchio_model import foot_links_in_urdf
+from quadlab.robots.pinocchio_model import IndexArray, foot_links_in_urdf
 from quadlab.robots.sensing import SensorReading
 
 
@@ -38,8 +39,10 @@ class LegModel:
         self._robot = robot
         self._model: Any = robot.pin_model
         self._data: Any = self._model.createData()
-        self._frames = [self._model.getFrameId(f"{link}_center") for link in foot_links_in_urdf(robot.config)]
-        self._legs = [robot.velocity_indices[joints_of(leg)] for leg in range(LEG_COUNT)]
+        frames = [self._model.getFrameId(f"{link}_center") for link in foot_links_in_urdf(robot.config)]
+        self._feet = tuple(self._data.oMf[frame].translation for frame in frames)  # memory that Pinocchio writes to
+        self._jacobian = self._data.J
+        self._joints_of_legs = robot.velocity_indices.reshape(LEG_COUNT, JOINTS_PER_LEG)
         self._configuration = pin.neutral(self._model)
         self._velocity = np.zeros(self._model.nv)
         self._acceleration = np.zeros(self._model.nv)
@@ -49,13 +52,7 @@ class LegModel:
         self._configuration[self._robot.position_indices] = joint_positions
         pin.computeJointJacobians(self._model, self._data, self._configuration)
         pin.updateFramePlacements(self._model, self._data)
-        centers, jacobians = np.empty((LEG_COUNT, 3)), np.empty((LEG_COUNT, 6, 3))
-        placements, axes = self._data.oMf, pin.LOCAL_WORLD_ALIGNED
-        for leg, (frame, columns) in enumerate(zip(self._frames, self._legs, strict=True)):
-            centers[leg] = placements[frame].translation
-            jacobians[leg] = pin.getFrameJacobian(self._model, self._data, frame, axes)[:, columns]
-        velocities = joint_velocities.reshape(LEG_COUNT, 3, 1)
-        return LegKinematics(centers, jacobians[:, :3], (jacobians[:, 3:] @ velocities)[:, :, 0])
+        return LegKinematics(*_leg_terms(self._jacobian, self._feet, self._joints_of_legs, joint_velocities))
 
     def foot_forces(self, reading: SensorReading, legs: LegKinematics, joint_accelerations: Array) -> Array:
         """Return the ground's forces that explain the joint torques, in base axes, (4, 3) in [N].
@@ -91,3 +88,33 @@ class LegModel:
         torques = pin.rnea(self._model, self._data, self._configuration, self._velocity, self._acceleration)
         motion: Array = torques[robot.velocity_indices] + robot.joint_damping * reading.joint_velocities
         return motion.reshape(JOINT_COUNT)
+
+
+@compiled_entry
+def _leg_terms(
+    jacobian: Array, feet: tuple[Array, ...], joints: IndexArray, joint_velocities: Array
+) -> tuple[Array, Array, Array]:
+    """Return centres (4, 3), Jacobians (4, 3, 3) and spins (4, 3) of the feet, as in ``LegKinematics``.
+
+    Args:
+        jacobian: spatial velocity [v at the base origin, omega] by each entry of Pinocchio's velocity, (6, 18).
+        feet: centres of the foot spheres, four of (3,).
+        joints: columns of each leg in ``jacobian``, (4, 3).
+        joint_velocities: (12,) in [rad/s].
+    """
+    legs, size = joints.shape
+    centers, jacobians, spins = np.empty((legs, 3)), np.empty((legs, 3, size)), np.zeros((legs, 3))
+    for leg in range(legs):
+        x, y, z = feet[leg][0], feet[leg][1], feet[leg][2]
+        centers[leg] = feet[leg]
+        for joint in range(size):
+            column = jacobian[:, joints[leg, joint]]
+            vx, vy, vz, wx, wy, wz = column[0], column[1], column[2], column[3], column[4], column[5]
+            jacobians[leg, 0, joint] = vx + wy * z - wz * y
+            jacobians[leg, 1, joint] = vy + wz * x - wx * z
+            jacobians[leg, 2, joint] = vz + wx * y - wy * x
+            speed = joint_velocities[leg * size + joint]
+            spins[leg, 0] += wx * speed
+            spins[leg, 1] += wy * speed
+            spins[leg, 2] += wz * speed
+    return centers, jacobians, spins
