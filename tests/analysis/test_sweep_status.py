@@ -19,7 +19,8 @@ OLD = "a" * 40
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a folder with one trial in each state, and the code at the commit of most of them."""
     monkeypatch.setattr(status_module, "git_state", lambda _: {"commit": "c" * 40})
-    trials = [SweepTrial(f"seed={seed}", compose_trial([f"seed={seed}"])) for seed in range(6)]
+    config = compose_trial()
+    trials = [SweepTrial(f"seed={seed}", config.model_copy(update={"seed": seed})) for seed in range(6)]
     record_sweep(trials, options(tmp_path))
     finish(tmp_path, "seed=0")
     finish(tmp_path, "seed=1", commit=OLD)
@@ -52,9 +53,8 @@ def test_complete_folder_is_exit_code_0(tmp_path: Path, monkeypatch: pytest.Monk
 def test_trial_that_runs_now_is_neither_half_written_nor_cleaned(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (directory,) = (
-        path.parent for path in folder.glob("*/trial.mcap.part") if not (path.parent / "error.json").exists()
-    )
+    parts = [path for path in folder.glob("*/*.part") if not (path.parent / "error.json").exists()]
+    directory = parts[0].parent
     with running(directory):
         main(["status", str(folder)])
         assert "1 running" in capsys.readouterr().out

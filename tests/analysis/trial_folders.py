@@ -1,6 +1,7 @@
 """Folders of trials that were never run: the files that trials leave, with made-up numbers."""
 
 import json
+from functools import cache
 from pathlib import Path
 
 import yaml
@@ -18,9 +19,14 @@ def options(results: Path) -> RunOptions:
     return RunOptions(force=False, results_dir=str(results))
 
 
+@cache
+def _composed(overrides: tuple[str, ...]) -> TrialConfig:
+    return compose_trial(overrides)
+
+
 def begin(results: Path, *overrides: str, commit: str = COMMIT) -> tuple[Path, TrialConfig]:
     """Leave what a trial leaves that was killed on the way."""
-    config = compose_trial(overrides)
+    config = _composed(overrides)
     directory = trial_directory(config, options(results))
     directory.mkdir(parents=True)
     (directory / "config.yaml").write_text(yaml.safe_dump(config.model_dump(mode="json")))
