@@ -1,15 +1,15 @@
-"""The console command ``quadlab``: run a trial or plan alone, draw it, film it, rescue its log."""
+"""The console command ``quadlab``: run trials or plan alone, look at what they left, rescue a log."""
 
 import argparse
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from pathlib import Path
 
-from quadlab import __version__
+from quadlab import __version__, sweep_commands
 from quadlab.errors import QuadlabError
 
-EXIT_USAGE = 2
-COMMANDS = ("run", "plan", "plot", "render", "recover")
+EXIT_FAILED, EXIT_USAGE = 1, 2
 
 _EPILOG = """
 quadlab run --help lists what can be overridden. Without a command, quadlab runs a trial:
@@ -31,14 +31,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if _is_override(given):
         return _run(given)
     options = _parser().parse_args(given)
-    action: Callable[[Path], Iterable[object]] = options.action
+    action: Callable[[argparse.Namespace], int] = options.action
     try:
-        for line in action(options.path):
-            sys.stdout.write(f"{line}\n")
+        return action(options)
     except QuadlabError as error:
         sys.stderr.write(f"quadlab: {error}\n")
         return EXIT_USAGE
-    return 0
+    except OSError as error:  # a full disk, a folder that nobody may write to
+        sys.stderr.write(f"quadlab: {error.filename}: {error.strerror}\n")
+        return EXIT_FAILED
 
 
 def _is_override(given: Sequence[str]) -> bool:
@@ -52,6 +53,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="command")
     commands.add_parser("run", help="run a trial, or with -m a sweep: overrides such as robot=anymal_b gait=trot")
     commands.add_parser("plan", help="plan without running: the same overrides")
+    sweep_commands.add_to(commands)
     for name, help_text, what, action in (
         ("plot", "draw the figures of a trial", "directory of the trial", _plot),
         ("render", "make a video of a trial", "directory of the trial", _render),
@@ -59,8 +61,14 @@ def _parser() -> argparse.ArgumentParser:
     ):
         command = commands.add_parser(name, help=help_text)
         command.add_argument("path", type=Path, help=what)
-        command.set_defaults(action=action)
+        command.set_defaults(action=partial(_print, action))
     return parser
+
+
+def _print(action: Callable[[Path], Iterable[object]], options: argparse.Namespace) -> int:
+    for line in action(options.path):
+        sys.stdout.write(f"{line}\n")
+    return 0
 
 
 def _run(overrides: Sequence[str]) -> int:

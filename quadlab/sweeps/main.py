@@ -60,6 +60,7 @@ def run_sweep(arguments: Sequence[str]) -> int:
 
 def _run(overrides: Sequence[str], progress: "SweepProgress") -> int:
     from quadlab.sweeps.multirun import check_sweep, sweep_points  # noqa: PLC0415
+    from quadlab.sweeps.record import record_sweep  # noqa: PLC0415
     from quadlab.sweeps.trial_pool import unique_trials  # noqa: PLC0415
 
     points = sweep_points(overrides)
@@ -68,6 +69,7 @@ def _run(overrides: Sequence[str], progress: "SweepProgress") -> int:
     trials = unique_trials(sweep.trials)
     if sweep.options.shard:
         trials = sweep.options.shard.of(trials)
+    record_sweep(sweep.trials, sweep.run)
     failures = 0
     with closing(_start(trials, sweep, progress)) as outcomes:
         for outcome in outcomes:

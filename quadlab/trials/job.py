@@ -13,6 +13,7 @@ from quadlab.errors import QuadlabError
 from quadlab.trials.config import RunOptions, TrialConfig
 from quadlab.trials.files import write_json, write_text
 from quadlab.trials.identity import trial_id
+from quadlab.trials.lock import running
 from quadlab.trials.manifest import MANIFEST_FILE, collect_manifest
 from quadlab.trials.progress import TrialProgress
 from quadlab.trials.result import RESULT_FILE, TrialResult, TrialStatus, read_result, write_result
@@ -89,13 +90,22 @@ def finished_before(config: TrialConfig, options: RunOptions) -> JobOutcome | No
 def run_job(config: TrialConfig, options: RunOptions, progress: TrialProgress) -> JobOutcome:
     """Run the trial, unless its result is there and ``force`` is not set, and leave its files in its directory.
 
+    If another process runs the same trial into the same directory, this one waits and takes its result.
+
     Raises:
         QuadlabError: if the configuration names something that does not exist.
+        OSError: if files cannot be written.
     """
     before = finished_before(config, options)
     if before is not None:
         return before
     directory = trial_directory(config, options)
+    directory.mkdir(parents=True, exist_ok=True)
+    with running(directory):
+        return finished_before(config, options) or _run(config, directory, progress)
+
+
+def _run(config: TrialConfig, directory: Path, progress: TrialProgress) -> JobOutcome:
     (directory / RESULT_FILE).unlink(missing_ok=True)
     _write_config(config, directory)
     result = None

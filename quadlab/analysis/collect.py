@@ -1,0 +1,107 @@
+"""The results of many trials in one typed table, with what was varied, for pandas, R or a spreadsheet."""
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, get_args
+
+import pandas as pd
+
+from quadlab.analysis.inventory import EntryState, TrialEntry, trial_entries
+from quadlab.errors import LogError
+from quadlab.trials.files import write_text
+from quadlab.trials.result import TrialResult, TrialStatus
+
+INDEX = "trial_id"
+PARQUET, CSV = "trials.parquet", "trials.csv"
+COMMIT = "commit"
+_NAMED_PARTS = ("robot", "gait", "planner", "controller", "scenario")
+_NO_OUTCOME = {EntryState.RUNNING, EntryState.UNFINISHED}
+_TYPES = {int: "Int64", float: "Float64", bool: "boolean", str: "string"}
+
+
+def collect_trials(folder: Path) -> pd.DataFrame:
+    """Return one row for each trial below ``folder`` that has an outcome, indexed by trial id and sorted by it.
+
+    Failures are rows: where the program failed or the result cannot be read the status is ``error``. Columns are the
+    fields of ``TrialResult``, the commit, and every value of the configuration that differs between the trials, by its
+    dotted key, e.g. ``controller.tracking.alignment.torso``. What does not exist is missing (NA), in every type.
+
+    Raises:
+        LogError: if there is nothing to collect, or two trials have the same id.
+    """
+    entries = [
+        entry for entry in trial_entries(folder) if entry.state not in (EntryState.RUNNING, EntryState.UNFINISHED)
+    ]
+    if not entries:
+        raise LogError(f"{folder}: no trial in it has an outcome yet; 'quadlab status {folder}' says what is there")
+    results = pd.DataFrame([_row(entry) for entry in entries], columns=list(TrialResult.model_fields))
+    results = results.astype({name: _type_of(name) for name in TrialResult.model_fields})
+    results[COMMIT] = pd.array([entry.commit for entry in entries], dtype="string")
+    table = pd.concat([results, varied_values([entry.config for entry in entries])], axis="columns")
+    return table.set_index(INDEX)
+
+
+def write_collected(table: pd.DataFrame, folder: Path) -> tuple[Path, Path]:
+    """Write ``trials.parquet`` and ``trials.csv`` into ``folder``, each in one step, and return their paths."""
+    parquet, csv = folder / PARQUET, folder / CSV
+    part = folder / f"{PARQUET}.{os.getpid()}.part"
+    try:
+        table.to_parquet(part)
+        os.replace(part, parquet)
+    finally:
+        part.unlink(missing_ok=True)
+    write_text(csv, table.to_csv())
+    return parquet, csv
+
+
+def varied_values(configs: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
+    """Return one row a configuration and one typed column for each dotted key whose value is not the same in all."""
+    flat = [dict(_leaves(config)) for config in configs]
+    keys = sorted({key for values in flat for key in values})
+    columns = {key: [values.get(key) for values in flat] for key in keys}
+    varied = {key: values for key, values in columns.items() if len(set(map(repr, values))) > 1}
+    return pd.DataFrame({key: _typed(values) for key, values in varied.items() if key not in TrialResult.model_fields})
+
+
+def _row(entry: TrialEntry) -> dict[str, Any]:
+    if entry.result is not None:
+        return entry.result.model_dump(mode="json")
+    names = {part: (entry.config.get(part) or {}).get("name", "unknown") for part in _NAMED_PARTS}
+    return {
+        INDEX: entry.trial_id,
+        "status": TrialStatus.ERROR.value,
+        "status_reason": entry.reason,
+        **names,
+        "estimator": (entry.config.get("estimator") or {}).get("kind", "unknown"),
+        "seed": entry.config.get("seed"),
+        "duration_s": entry.config.get("duration_s"),
+    }
+
+
+def _type_of(field: str) -> str:
+    annotation = TrialResult.model_fields[field].annotation
+    members = [getattr(member, "__origin__", member) for member in get_args(annotation) or (annotation,)]
+    kind = next((member for member in members if member in _TYPES), int if field == "schema_version" else str)
+    return _TYPES[kind]
+
+
+def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    if isinstance(value, Mapping) and value:
+        children = value.items()
+    elif isinstance(value, list) and value:
+        children = enumerate(value)  # type: ignore[assignment]
+    else:
+        yield key, value if value not in ({}, []) else str(value)
+        return
+    for name, child in children:
+        yield from _leaves(child, f"{key}.{name}" if key else str(name))
+
+
+def _typed(values: Sequence[Any]) -> Any:
+    """Return values as the narrowest type that holds all of them; words if nothing else does."""
+    kinds = {type(value) for value in values if value is not None}
+    for kind in (bool, int, float):
+        if kinds <= {kind} or (kind is float and kinds <= {int, float}):
+            return pd.array(list(values), dtype=_TYPES[kind])  # type: ignore[call-overload]
+    return pd.array([None if value is None else str(value) for value in values], dtype="string")

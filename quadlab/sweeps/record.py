@@ -1,0 +1,49 @@
+"""What a sweep asked for, beside its trials, so that somebody can see later what is missing."""
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from quadlab.errors import LogError
+from quadlab.sweeps.trial_pool import SweepTrial
+from quadlab.trials.config import RunOptions
+from quadlab.trials.files import write_json
+from quadlab.trials.identity import ID_LENGTH, trial_id
+
+FOLDER = "sweeps"
+"""In the folder of a tag: a file for each different sweep."""
+
+
+def record_sweep(trials: Sequence[SweepTrial], options: RunOptions) -> list[Path]:
+    """Write which trials were asked for into the folder of each tag and return the paths.
+
+    The same sweep gives the same file, on every machine that runs a part of it.
+    """
+    by_tag: dict[str, dict[str, str]] = {}
+    for trial in trials:
+        by_tag.setdefault(trial.config.tag, {})[trial_id(trial.config)] = trial.name
+    return [_write(Path(options.results_dir) / tag / FOLDER, names) for tag, names in by_tag.items()]
+
+
+def asked_for(folder: Path) -> dict[str, str]:
+    """Return the names of all trials that any sweep into ``folder`` asked for, by trial id; empty if none is known.
+
+    Raises:
+        LogError: if the record of a sweep cannot be read.
+    """
+    names: dict[str, str] = {}
+    for path in sorted((folder / FOLDER).glob("*.json")):
+        try:
+            names |= json.loads(path.read_text(encoding="utf-8"))
+        except (ValueError, TypeError) as error:
+            raise LogError(f"{path}: not the record of a sweep ({error}); remove it") from error
+    return names
+
+
+def _write(folder: Path, names: Mapping[str, str]) -> Path:
+    key = hashlib.sha256("".join(sorted(names)).encode()).hexdigest()[:ID_LENGTH]
+    path = folder / f"{key}.json"
+    if not path.is_file():
+        write_json(path, dict(names))
+    return path

@@ -1,0 +1,93 @@
+"""Status names what is missing, failed, half-written and stale; clean removes what never finished and nothing else."""
+
+from pathlib import Path
+
+import pytest
+from trial_folders import begin, fail, finish, options
+
+from quadlab.analysis import sweep_status as status_module
+from quadlab.cli import main
+from quadlab.sweeps.record import record_sweep
+from quadlab.sweeps.trial_pool import SweepTrial
+from quadlab.trials.compose import compose_trial
+from quadlab.trials.lock import running
+
+OLD = "a" * 40
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder with one trial in each state, and the code at the commit of most of them."""
+    monkeypatch.setattr(status_module, "git_state", lambda _: {"commit": "c" * 40})
+    config = compose_trial()
+    trials = [SweepTrial(f"seed={seed}", config.model_copy(update={"seed": seed})) for seed in range(6)]
+    record_sweep(trials, options(tmp_path))
+    finish(tmp_path, "seed=0")
+    finish(tmp_path, "seed=1", commit=OLD)
+    fail(tmp_path, "seed=2")
+    begin(tmp_path, "seed=3")
+    (finish(tmp_path, "seed=4") / "result.json").write_text("{}")
+    return tmp_path / "trials"
+
+
+def test_every_trial_that_is_not_fine_is_named(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["status", str(folder)]) == 1
+    first, *lines = capsys.readouterr().out.splitlines()
+    assert first.startswith(f"{folder}: 6 asked for, 2 finished (2 completed), ")
+    assert "1 missing, 1 stale" in first
+    words = {word: next(line for line in lines if word in line) for word in ("failed", "half-written", "unreadable")}
+    assert words["failed"].endswith("(seed=2): died: killed by SIGKILL")
+    assert words["half-written"].endswith("(seed=3)")
+    assert "(seed=4): " in words["unreadable"]
+    assert any(line.endswith("(seed=5)") and "missing" in line for line in lines)
+    assert any(line.endswith("(seed=1): commit aaaaaaaaaa, now cccccccccc") for line in lines)
+    assert len(lines) == 5
+
+
+def test_complete_folder_is_exit_code_0(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(status_module, "git_state", lambda _: None)
+    finish(tmp_path, "seed=0")
+    assert main(["status", str(tmp_path)]) == 0
+
+
+def test_trial_that_runs_now_is_neither_half_written_nor_cleaned(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    parts = [path for path in folder.glob("*/*.part") if not (path.parent / "error.json").exists()]
+    directory = parts[0].parent
+    with running(directory):
+        main(["status", str(folder)])
+        assert "1 running" in capsys.readouterr().out
+        assert main(["clean", str(folder), "--yes"]) == 0
+        assert directory.is_dir()
+    assert main(["clean", str(folder), "--yes"]) == 0
+    assert not directory.exists()
+
+
+def test_clean_keeps_every_result_even_one_that_cannot_be_read(folder: Path) -> None:
+    results = {path: path.read_bytes() for path in folder.rglob("result.json")}
+    assert len(results) == 3
+    assert main(["clean", str(folder), "--yes"]) == 0
+    assert {path: path.read_bytes() for path in folder.rglob("result.json")} == results
+    assert len([path for path in folder.iterdir() if len(path.name) == 16]) == 3
+
+
+def test_clean_asks_first(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = sorted(folder.rglob("*"))
+    assert main(["clean", str(folder)]) == 2
+    assert "--yes" in capsys.readouterr().err
+    assert sorted(folder.rglob("*")) == before
+
+
+def test_clean_leaves_what_somebody_else_put_there(tmp_path: Path) -> None:
+    directory, _ = begin(tmp_path, "seed=0")
+    (directory / "notes.txt").write_text("mine")
+    assert main(["clean", str(tmp_path), "--yes"]) == 0
+    assert [path.name for path in directory.iterdir()] == ["notes.txt"]
+
+
+def test_clean_removes_half_written_files_beside_a_result(tmp_path: Path) -> None:
+    directory = finish(tmp_path, "seed=0")
+    (directory / "result.json.17.part").write_text("{")
+    assert main(["clean", str(tmp_path), "--yes"]) == 0
+    assert {path.name for path in directory.iterdir()} == {"config.yaml", "manifest.json", "result.json", "trial.mcap"}
