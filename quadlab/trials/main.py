@@ -103,6 +103,9 @@ def run_document(document: DictConfig) -> int:
     except QuadlabError as error:
         complain(str(error))
         return EXIT_USAGE
+    except OSError as error:  # a full disk, a folder that nobody may write to
+        complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+        return EXIT_FAILED
     if outcome.failure:
         complain(outcome.failure)
         return EXIT_FAILED
