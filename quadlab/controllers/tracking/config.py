@@ -36,6 +36,8 @@ class ContactConfig(StrictModel):
     Attributes:
         touch_down_force_share: normal force that means contact, as a share of the robot's weight.
         earliest_touch_down: share of the swing before which a contact is ignored.
+        expected_touch_down: share of the swing at which the foot reaches the ground it expects; from then on it
+            searches.
         latest_lift_off: share of a swing after which a lift-off that had to wait is skipped.
         minimum_stance_legs: a leg lifts off only if so many others stand.
         lost_contact_s: time without force after which a standing leg searches the ground in [s].
@@ -47,6 +49,7 @@ class ContactConfig(StrictModel):
 
     touch_down_force_share: Positive
     earliest_touch_down: Fraction
+    expected_touch_down: Fraction
     latest_lift_off: Fraction
     minimum_stance_legs: int
     lost_contact_s: Positive

@@ -183,7 +183,7 @@ class ContactMachine:
         state.mode = LegMode.SWING
         state.lift_off_point = foot
         state.lift_off_s = time_s
-        state.touch_down_due_s = due_s
+        state.touch_down_due_s = time_s + self.config.expected_touch_down * (due_s - time_s)
 
     def _touch_down(self, leg: int, time_s: float, foot: Array) -> None:
         state = self.legs[leg]

@@ -39,6 +39,7 @@ class FootPlanner:
         self,
         legs: list[LegContact],
         plan_time_s: float,
+        plan_rate: float,
         alignment: PlanarPose,
         com_velocity_reference: Array,
         kinematics: Kinematics,
@@ -49,6 +50,7 @@ class FootPlanner:
         Args:
             legs: contact states.
             plan_time_s: time in the plan in [s].
+            plan_rate: seconds of the plan in a second.
             alignment: of the footholds.
             com_velocity_reference: desired velocity in the world, (2,) in [m/s].
             kinematics: measured.
@@ -66,7 +68,8 @@ class FootPlanner:
                 planned = alignment.position(self._next_foothold(number, leg))
                 foothold = self._adapt(number, planned, velocity_error, phase, kinematics, terrain)
                 apex = self.config.apex * self.base_height
-                motions.append(swing_motion(leg.lift_off_point, foothold, apex, phase, leg.swing_duration_s))
+                planned_motion = swing_motion(leg.lift_off_point, foothold, apex, phase, leg.swing_duration_s)
+                motions.append(planned_motion.at_rate(plan_rate))
         return motions
 
     def _next_foothold(self, number: int, leg: LegContact) -> Array:

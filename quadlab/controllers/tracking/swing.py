@@ -15,6 +15,10 @@ class FootMotion:
     velocity: Array
     acceleration: Array
 
+    def at_rate(self, rate: float) -> "FootMotion":
+        """Return the same place on the way, passed ``rate`` times as fast."""
+        return FootMotion(self.position, rate * self.velocity, rate**2 * self.acceleration)
+
 
 def quintic_blend(progress: float) -> tuple[float, float, float]:
     """Return the quintic Hermite blend from 0 to 1 with rest at both ends and its two derivatives by progress."""

@@ -19,6 +19,7 @@ from quadlab.controllers.tracking.contact_machine import start_contacts
 from quadlab.controllers.tracking.feet import FootPlanner
 from quadlab.controllers.tracking.force_ramp import normal_force_limit, ramp_duration
 from quadlab.controllers.tracking.handover import PlanProgress, feet_in_progress
+from quadlab.controllers.tracking.plan_clock import PlanClock
 from quadlab.controllers.tracking.torso import ground_axes, torso_rotation
 from quadlab.estimation.terrain_plane import TerrainPlane, blend, fit_plane
 from quadlab.geometry.rotations import Array, rotation_2d, yaw_of
@@ -71,7 +72,7 @@ class MotionTracker:
         self._ramps_s = [ramp_duration(config.force_ramp, plan.schedule, leg) for leg in range(LEG_COUNT)]
         self._alignment = SmoothedAlignment(config.alignment.time_constant_s, identity_alignment())
         self._terrain = fit_plane(start.foot_positions, start.com_position[:2])
-        self._frozen_s = 0.0
+        self._clock = PlanClock(math.sqrt(self._base_height / GRAVITY))
         self._began_s = 0.0
         self._first_frame = np.zeros(3)
         self._feet = FootPlanner(
@@ -84,7 +85,7 @@ class MotionTracker:
 
     def progress(self, time_s: float, kinematics: Kinematics) -> PlanProgress:
         """Return how far the plan has been followed at ``time_s`` since its start, in [s]."""
-        plan_time_s = time_s - self._frozen_s
+        plan_time_s = time_s - self._clock.waited_s
         feet, standing, regular = feet_in_progress(self._contacts, plan_time_s, kinematics.foot_positions)
         pose = self._alignment.current.pose(self._first_frame)
         return PlanProgress(self._began_s + plan_time_s, pose, feet, standing, regular)
@@ -95,10 +96,10 @@ class MotionTracker:
         Its frame is the world as it is now and its time 0 is ``time_s`` since the start of the old plan, in [s]:
         times of later updates count from now. Contacts, terrain and force ramps go on.
         """
-        elapsed_s = time_s - self._frozen_s
+        elapsed_s = time_s - self._clock.waited_s
         self._first_frame = self._alignment.current.pose(self._first_frame)
         self._began_s += elapsed_s
-        self._frozen_s = 0.0
+        self._clock.waited_s = 0.0
         self._contacts.follow(plan.schedule, elapsed_s, kinematics.foot_positions)
         self._alignment = SmoothedAlignment(self.config.alignment.time_constant_s, identity_alignment())
         self._feet = replace(self._feet, footholds=plan.footholds)
@@ -112,16 +113,16 @@ class MotionTracker:
             kinematics: of the measured state.
             normal_forces: measured under the feet, (4,) in [N].
         """
-        frozen = self.config.contact.freeze_plan_while_searching and self._contacts.searching
-        self._frozen_s += self.period_s if frozen else 0.0
-        plan_time_s = time_s - self._frozen_s
+        waits = self.config.contact.freeze_plan_while_searching and self._contacts.searching
+        self._clock.advance(waits, self.period_s)
+        plan_time_s = time_s - self._clock.waited_s
         events = self._contacts.update(plan_time_s, self.period_s, kinematics.foot_positions, normal_forces)
         sample = self.plan.at(plan_time_s)
         self._update_terrain(kinematics)
         raw = self._raw_alignment(self.config.alignment.torso, sample, kinematics)
         torso = self._alignment.update(raw, sample.com_position[:2], self.period_s)
         return TrackedTick(
-            reference=self._reference(plan_time_s, sample, torso, kinematics, 0.0 if frozen else 1.0),
+            reference=self._reference(plan_time_s, sample, torso, kinematics),
             sample=sample,
             plan_time_s=self._began_s + plan_time_s,
             torso_alignment=torso,
@@ -151,24 +152,26 @@ class MotionTracker:
         return feet_alignment(np.array(planned), np.array([leg.stance_point[:2] for leg in legs]))
 
     def _reference(
-        self, plan_time_s: float, sample: PlanSample, torso: PlanarPose, kinematics: Kinematics, speed: float
+        self, plan_time_s: float, sample: PlanSample, torso: PlanarPose, kinematics: Kinematics
     ) -> ControlReference:
         com_position = torso.position(sample.com_position[:2])
-        com_velocity = speed * torso.vector(sample.com_velocity[:2])
+        rate = self._clock.rate
+        com_velocity = rate * torso.vector(sample.com_velocity[:2])
+        com_change = rate**2 * sample.com_acceleration[:2] + self._clock.rate_change * sample.com_velocity[:2]
         yaw = sample.yaw + torso.yaw
         kind = self.config.alignment.swing
         footholds = torso if kind is self.config.alignment.torso else self._raw_alignment(kind, sample, kinematics)
         motions = self._feet.motions(
-            self._contacts.legs, plan_time_s, footholds, com_velocity, kinematics, self._terrain
+            self._contacts.legs, plan_time_s, rate, footholds, com_velocity, kinematics, self._terrain
         )
         return ControlReference(
             com_position=com_position,
             com_velocity=com_velocity,
-            com_acceleration=speed * torso.vector(sample.com_acceleration[:2]),
+            com_acceleration=torso.vector(com_change),
             base_position=com_position - rotation_2d(yaw) @ self._com_in_base,
             base_height=self._terrain.height_at(kinematics.base_position[:2]) + self._base_height,
             base_rotation=torso_rotation(yaw, self._terrain, self.config.torso.slope_following),
-            base_angular_velocity=np.array([0.0, 0.0, speed * sample.yaw_rate]),
+            base_angular_velocity=np.array([0.0, 0.0, rate * sample.yaw_rate]),
             foot_positions=np.array([motion.position for motion in motions]),
             foot_velocities=np.array([motion.velocity for motion in motions]),
             foot_accelerations=np.array([motion.acceleration for motion in motions]),

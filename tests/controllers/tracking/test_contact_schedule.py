@@ -29,6 +29,15 @@ def test_lift_off_waits_until_enough_others_stand() -> None:
     assert leg.swing_phase(0.4) == pytest.approx(0.5, abs=0.01)
 
 
+def test_search_can_begin_before_the_swing_is_over_by_plan() -> None:
+    """LF shall land after 80 % of its swing; from then on it searches."""
+    script = Script(machine_for(diagonal_schedule(), expected_touch_down=0.8)).run(0.48, unsupported(0.6))
+    swing = script.machine.schedule.swings[0][0]
+    begins_s = swing.start_s + 0.8 * swing.duration_s
+    searches = [time for time, mode in script.changes_of(0) if mode is SEARCH]
+    assert searches == [pytest.approx(begins_s, abs=1.1 * PERIOD)]
+
+
 def test_lift_off_that_had_to_wait_too_long_is_skipped() -> None:
     machine = machine_for(diagonal_schedule(), minimum_stance_legs=2, latest_lift_off=0.7)
     script = Script(machine).run(0.5, unsupported(0.45))

@@ -66,6 +66,15 @@ def test_inputs_are_left_alone() -> None:
     np.testing.assert_array_equal(foothold, [0.5, 0.15, 0.01])
 
 
+def test_slower_passage_is_the_same_way_with_the_derivatives_of_a_slower_clock() -> None:
+    foothold, rate = np.array([0.5, 0.15, 0.01]), 0.4
+    motion = swing_motion(LIFT_OFF, foothold, APEX, 0.3, DURATION)
+    slow, slower_swing = motion.at_rate(rate), swing_motion(LIFT_OFF, foothold, APEX, 0.3, DURATION / rate)
+    np.testing.assert_allclose(slow.position, slower_swing.position)
+    np.testing.assert_allclose(slow.velocity, slower_swing.velocity)
+    np.testing.assert_allclose(slow.acceleration, slower_swing.acceleration)
+
+
 def test_search_goes_straight_down() -> None:
     motion = search_motion(LIFT_OFF, 0.04, 0.5)
     np.testing.assert_allclose(motion.position, LIFT_OFF - [0.0, 0.0, 0.04])
