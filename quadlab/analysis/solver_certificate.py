@@ -1,11 +1,13 @@
-"""How often each method solves the hierarchies of closed-loop trials: verdicts of the certificate, counted."""
+"""How often each method solves hierarchies of closed-loop trials and random ones: verdicts of the certificate."""
 
 from collections.abc import Sequence
 from dataclasses import asdict
 
+import numpy as np
 import pandas as pd
 
 from quadlab.controllers.hierarchy import Level
+from quadlab.controllers.hierarchy.random_hierarchy import DIMENSION, random_hierarchy
 from quadlab.controllers.solver_opinions import METHODS, QUICK, Opinion, change_by_lower_levels, opinions
 from quadlab.geometry.rotations import Array
 from quadlab.trials.compose import compose_trial
@@ -35,8 +37,28 @@ def judge_trial(trial: str, overrides: tuple[str, ...], stride: int, cascade_str
 
     config = compose_trial(list(overrides))
     ending = record_hierarchies(config, stride, judge)
+    return _verdicts({"trial": trial, "controller": config.controller.name, "ending": ending}, found, changes)
+
+
+def judge_random(name: str, seeds: Sequence[int], cascade_stride: int) -> list[dict[str, object]]:
+    """Let the methods solve random hierarchies and return one row a method.
+
+    Args:
+        name: for the rows.
+        seeds: of the hierarchies.
+        cascade_stride: every so manieth is also given to the cascades.
+    """
+    found: list[Opinion] = []
+    changes: list[float] = []
+    for number, seed in enumerate(seeds):
+        levels, start = random_hierarchy(seed), np.zeros(DIMENSION)
+        found.extend(opinions(levels, start, METHODS if number % cascade_stride == 0 else QUICK))
+        changes.append(change_by_lower_levels(levels, start))
+    return _verdicts({"trial": name, "controller": None, "ending": "-"}, found, changes)
+
+
+def _verdicts(common: dict[str, object], found: Sequence[Opinion], changes: Sequence[float]) -> list[dict[str, object]]:
     table = pd.DataFrame([asdict(opinion) for opinion in found])
-    common = {"trial": trial, "controller": config.controller.name, "ending": ending}
     return [
         common | count_verdicts(method, table[table["method"] == method]) | {"change_by_lower_max": max(changes)}
         for method in METHODS
@@ -69,14 +91,19 @@ def count_verdicts(method: str, table: pd.DataFrame) -> dict[str, object]:
     }
 
 
-def report(table: pd.DataFrame) -> str:
-    """Return the report of a table of ``judge_trial`` rows: all trials together, then the cascades trial by trial."""
+def report(table: pd.DataFrame, source: str) -> str:
+    """Return the report of a table of ``judge_trial`` or ``judge_random`` rows: all together, then trial by trial.
+
+    Args:
+        table: with the columns of those.
+        source: of the hierarchies, for the title.
+    """
     total = int(table.loc[table["method"] == METHODS[0], "states"].sum())
     lines = [
-        "# Certificates of solutions in closed loop",
+        f"# Certificates of solutions: {source}",
         "",
-        f"{total} hierarchies, sampled from trials whose controller solves them by the lexicographic method; cascades,",
-        "which are slow, are given a part of them. Failed: the method says so itself. Uncertified: it claims success,",
+        f"{total} hierarchies; cascades, which are slow, are given a part of them. Failed: the method",
+        "says so itself. Uncertified: it claims success,",
         f"but the remainder of the optimality conditions is not below {CERTIFIED:.0e}. Wrong: it claims success, but",
         f"the remainder is above {WRONG:.0e} or a level has other slacks.",
         "",

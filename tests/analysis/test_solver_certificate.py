@@ -27,4 +27,4 @@ def test_hierarchies_of_a_closed_loop_are_certified() -> None:
     assert ours["states"] == 6
     assert ours["failed"] == ours["uncertified"] == ours["wrong"] == 0
     assert ours["change_by_lower_max"] < 1e-9
-    assert "| trot | completed | 6 | 0 + 0 |" in report(table)
+    assert "| trot | completed | 6 | 0 + 0 |" in report(table, "trials")

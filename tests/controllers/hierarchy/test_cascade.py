@@ -5,12 +5,12 @@ from typing import get_args
 import numpy as np
 import pytest
 import qpsolvers
-from hierarchy_problems import DIMENSION, random_hierarchy
 
 from quadlab.controllers.hierarchy import HierarchyError, Level, certificate, solve_hierarchy
 from quadlab.controllers.hierarchy import cascade as cascade_module
 from quadlab.controllers.hierarchy.cascade import CascadeSolution, CascadeStatus, QpSolver, solve_cascade
 from quadlab.controllers.hierarchy.daqp_hierarchical import solve_daqp_hierarchical
+from quadlab.controllers.hierarchy.random_hierarchy import DIMENSION, random_hierarchy
 from quadlab.geometry.rotations import Array
 
 OPEN = np.inf

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from hierarchy_problems import random_hierarchy
 
 from quadlab.controllers.hierarchy import HierarchyError, Level, solve_hierarchy, solve_stacked, stack
+from quadlab.controllers.hierarchy.random_hierarchy import random_hierarchy
 from quadlab.errors import QuadlabError
 
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from hierarchy_problems import DIMENSION, random_hierarchy
 
 from quadlab.controllers.hierarchy import HierarchyStatus, Level, certificate, solve_hierarchy
+from quadlab.controllers.hierarchy.random_hierarchy import DIMENSION, random_hierarchy
 
 OPTIMAL = 1e-6
 

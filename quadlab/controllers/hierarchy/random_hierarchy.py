@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quadlab.controllers.hierarchy import Level
+from quadlab.controllers.hierarchy.level import Level
 from quadlab.geometry.rotations import Array
 
 DIMENSION = 12
