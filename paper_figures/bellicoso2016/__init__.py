@@ -1,0 +1,1 @@
+"""Bellicoso, Gehring, Hwangbo, Fankhauser and Hutter 2016."""

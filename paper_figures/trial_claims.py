@@ -1,0 +1,42 @@
+"""What claims about closed-loop trials have in common: shares, largest values, how variants did."""
+
+import pandas as pd
+
+from quadlab.analysis.artefact import Claim, Verdict, verdict
+from quadlab.studies.report import success_share
+
+COMPLETED = "completed"
+
+
+def completed(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return the trials that stayed up to their end."""
+    return rows[rows["status"] == COMPLETED]
+
+
+def share(rows: pd.DataFrame) -> str:
+    """Return how many of ``rows`` completed, with Wilson's interval."""
+    return success_share(len(completed(rows)), len(rows))
+
+
+def survival(text: str, rows: pd.DataFrame, paper: str, needed: int | None = None, why: str = "") -> Claim:
+    """Return the claim that ``needed`` of ``rows``, all if not given, stay up; ``why`` is said where they do not."""
+    good = len(completed(rows))
+    holds = good >= (len(rows) if needed is None else needed)
+    return Claim(text, paper, share(rows), verdict(holds=holds, partly=good > 0), "" if holds else why)
+
+
+def at_most(text: str, rows: pd.DataFrame, column: str, limit: float, unit: str, *, paper: str, why: str = "") -> Claim:
+    """Return the claim that ``column`` stays below ``limit`` in every completed trial of ``rows``."""
+    values = completed(rows)[column]
+    worst, median = float(values.max()), float(values.median())
+    holds = worst <= limit
+    ours = f"{median:.3g} {unit} median, {worst:.3g} {unit} worst of {len(values)}"
+    return Claim(text, paper, ours, verdict(holds=holds, partly=median <= limit), "" if holds else why)
+
+
+def variant_claims(rows: pd.DataFrame, column: str, names: dict[str, str]) -> list[Claim]:
+    """Return one claim a variant: what became of the trials in which ``column`` has that level; no paper says it."""
+    return [
+        Claim(f"stays up {text}", "not printed", share(rows[rows[column] == level]), Verdict.NEW)
+        for level, text in names.items()
+    ]
