@@ -1,0 +1,93 @@
+"""Gehring 2017, Fig. 5: a lateral walk that is pushed sideways, from above and over time."""
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from paper_figures.push_limits import PUSH_S, limit_claims
+from paper_figures.trial_claims import survival
+from quadlab.analysis.artefact import Artefact, Claim, verdict
+from quadlab.analysis.study_results import StudyResults
+from quadlab.plotting.intervals import intervals_where
+from quadlab.plotting.style import LEG_COLOURS, MEASURED, PUSH, REFERENCE, TEXT_WIDTH, paper_style
+from quadlab.robots.legs import LEGS
+
+STUDY, LIMITS = "gehring2017_walk_push", "gehring2017_walk_pushes"
+ARTEFACT = Artefact("G-F5", "Gehring 2017, Fig. 5", "Lateral walk pushed sideways", (STUDY, LIMITS))
+NEEDED_MPS = (0.6, 1.0)
+"""Smallest and median change of velocity that counts as good."""
+
+
+@paper_style()
+def draw(results: StudyResults) -> Figure:
+    """Return (a) footprints and CoM from above and (b) y of the CoM with its reference over time."""
+    trace = results.trace(STUDY, "push")
+    figure = Figure(figsize=(TEXT_WIDTH, 2.6), layout="constrained")
+    above, over_time = figure.subplots(1, 2)
+    _draw_from_above(above, trace)
+    over_time.plot(trace.index, trace["control.com_reference_y"], color=REFERENCE, linewidth=2.0, label="desired")
+    over_time.plot(trace.index, trace["control.com_y"], "--", color=MEASURED, label="measured")
+    pushed = (trace["state.push_force_y"] != 0.0).to_numpy()
+    for span in intervals_where(trace.index.to_numpy(), pushed, float(trace.index[-1])):
+        over_time.axvspan(span.start_s, span.end_s, color=PUSH, alpha=0.5, label="push")
+    over_time.set(xlabel="time [s]", ylabel="CoM y [m]")
+    over_time.set_title("(b) the reference adapts to the push", loc="left")
+    over_time.legend(loc="lower left", ncols=3)
+    return figure
+
+
+def _draw_from_above(axes: Axes, trace: pd.DataFrame) -> None:
+    axes.plot(trace["control.com_reference_x"], trace["control.com_reference_y"], color=REFERENCE, linewidth=2.0)
+    axes.plot(trace["control.com_x"], trace["control.com_y"], "--", color=MEASURED)
+    for leg, colour in zip(LEGS, LEG_COLOURS, strict=True):
+        prints = footprints(trace, leg)
+        axes.plot(prints["x_m"], prints["y_m"], "o", color=colour, markersize=4.0, alpha=0.7, label=leg)
+    axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    axes.set_title("(a) footprints and CoM from above", loc="left")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
+def footprints(trace: pd.DataFrame, leg: str) -> pd.DataFrame:
+    """Return the mean position of the foot in each of its stances, by time."""
+    stands = trace[f"control.leg_mode_{leg}"] == 0
+    stance = (stands & ~stands.shift(1, fill_value=False)).cumsum()[stands]
+    feet = trace.loc[stands, [f"control.foot_position_{leg}_x", f"control.foot_position_{leg}_y"]]
+    means = feet.groupby(stance).mean()
+    return pd.DataFrame({"x_m": means.iloc[:, 0].to_numpy(), "y_m": means.iloc[:, 1].to_numpy()})
+
+
+def numbers(results: StudyResults) -> pd.DataFrame:
+    """Return the CoM, its reference and the push over time."""
+    trace = results.trace(STUDY, "push")
+    columns = ["control.com_x", "control.com_y", "control.com_reference_x", "control.com_reference_y"]
+    return trace[[*columns, "state.push_force_x", "state.push_force_y"]].reset_index()
+
+
+def claims(results: StudyResults) -> list[Claim]:
+    """Return that it recovers, that a foot loses contact, how the reference adapts, and the largest pushes."""
+    table, trace = results.table(STUDY), results.trace(STUDY, "push")
+    refused = "A plan from a perturbed start that the checker refuses by a fraction of a millimetre is a failure here."
+    pushed = trace.index[(trace["state.push_force_y"] != 0.0).to_numpy()]
+    before, after = trace.loc[: pushed[0]].iloc[-1], trace.iloc[-1]
+    moved_mm = 1e3 * (after["control.com_reference_y"] - before["control.com_reference_y"])
+    lost = any("LH lost contact" in message for message in results.events(STUDY, "push")["message"])
+    return [
+        *(
+            survival(f"stays up after a push to the right of 0.8 m/s, {name}", rows, "recovers", why=refused)
+            for name, rows in table.groupby("estimator")
+        ),
+        Claim(
+            "the left hind foot loses contact",
+            "yes",
+            "yes" if lost else "no",
+            verdict(holds=lost),
+            "" if lost else "The controller keeps the foot loaded at this force.",
+        ),
+        Claim(
+            "the reference in y adapts",
+            "adapts",
+            f"{moved_mm:.0f} mm to the left of where it was before the push",
+            verdict(holds=abs(moved_mm) > 10.0),
+        ),
+        *limit_claims(results.limits(LIMITS), NEEDED_MPS, f"walk, {PUSH_S} s"),
+    ]

@@ -1,0 +1,87 @@
+"""Gehring 2017, Fig. 6: a trot over a plank that nobody announced, under the front legs."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from paper_figures.trial_claims import survival
+from quadlab.analysis.artefact import Artefact, Claim, Verdict
+from quadlab.analysis.study_results import StudyResults
+from quadlab.plotting.style import COLUMN_WIDTH, GROUND, LEG_COLOURS, MEASURED, REFERENCE, paper_style
+from quadlab.robots.legs import LEGS
+
+STUDY = "gehring2017_trot_plank"
+ARTEFACT = Artefact("G-F6", "Gehring 2017, Fig. 6", "Trot over an unperceived plank", (STUDY,))
+HEIGHT, PLACE = "scenario.terrain.0.height_m", "scenario.terrain.0.center_x_m"
+LEG_LENGTH_M = 0.564
+"""Thigh and shank of ANYmal B."""
+NEEDED = {0.08: 10, 0.10: 8}
+"""How many of ten places count as good, by height in [m]."""
+VARIANTS = {
+    "alignment none": "without alignment of the plan",
+    "alignment base": "with base-centred alignment alone",
+    "alignment feet": "with feet-centred alignment alone",
+    "no foothold feedback": "without foothold feedback",
+    "stack of the paper": "with the priorities of the paper",
+}
+
+
+@paper_style()
+def draw(results: StudyResults) -> Figure:
+    """Return pitch with its reference, and the heights of the front feet with theirs, over time."""
+    table = numbers(results)
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.4), layout="constrained")
+    for_pitch, *for_feet = figure.subplots(3, 1, sharex=True)
+    for_pitch.plot(table["time_s"], table["pitch_reference_deg"], color=REFERENCE, linewidth=2.0, label="desired")
+    for_pitch.plot(table["time_s"], table["pitch_deg"], "--", color=MEASURED, label="measured")
+    for_pitch.set_ylabel("pitch [deg]")
+    for_pitch.legend(loc="upper left", ncols=2)
+    for axes, leg in zip(for_feet, ("LF", "RF"), strict=True):
+        axes.plot(table["time_s"], table[f"{leg}_z_reference_m"], color=REFERENCE, linewidth=2.0)
+        axes.plot(table["time_s"], table[f"{leg}_z_m"], "--", color=LEG_COLOURS[LEGS.index(leg)])
+        axes.axhline(0.08, color=GROUND, linestyle=":", label="height of the plank")
+        axes.set_ylabel(f"{leg} height [m]")
+    for_feet[0].legend(loc="upper right")
+    for_feet[-1].set_xlabel("time [s]")
+    return figure
+
+
+def numbers(results: StudyResults) -> pd.DataFrame:
+    """Return pitch and heights of the feet, and their references, over time."""
+    trace = results.trace(STUDY, "plank")
+    angles = {
+        "pitch_deg": np.degrees(trace["control.base_pitch"].to_numpy()),
+        "pitch_reference_deg": np.degrees(trace["control.base_reference_pitch"].to_numpy()),
+    }
+    heights = {f"{leg}_z_m": trace[f"control.foot_position_{leg}_z"].to_numpy() for leg in LEGS}
+    references = {f"{leg}_z_reference_m": trace[f"control.foot_position_reference_{leg}_z"].to_numpy() for leg in LEGS}
+    return pd.DataFrame({"time_s": trace.index.to_numpy(), **angles, **heights, **references})
+
+
+def claims(results: StudyResults) -> list[Claim]:
+    """Return which heights are passed at how many places, the highest, and what holds the robot up."""
+    table, limits = results.table(STUDY), results.limits(STUDY)
+    reference = table[table["variant"] == "reference"]
+    heights = [
+        survival(
+            f"trots over a plank of {100 * height:.0f} cm, {estimator}",
+            reference[np.isclose(reference[HEIGHT], height) & (reference["estimator"] == estimator)],
+            "recovers; height not printed",
+            needed,
+            "It depends on the place: a foot that lands on the edge slips off.",
+        )
+        for height, needed in NEEDED.items()
+        for estimator in ("ekf", "truth")
+    ]
+    highest = 100.0 * limits["limit"].fillna(0.0)
+    share = 100.0 * highest.min() / (100.0 * LEG_LENGTH_M)
+    ours = f"{highest.min():.0f} cm ({share:.0f} % of the leg), up to {highest.max():.0f} cm, {len(highest)} places"
+    same = table[np.isclose(table[HEIGHT], 0.08) & table[PLACE].isin([0.55, 0.60, 0.65, 0.70, 0.75])]
+    variants = [
+        survival(f"8 cm {text}", same[same["variant"] == level], "not printed") for level, text in VARIANTS.items()
+    ]
+    return [
+        *heights,
+        Claim("highest plank that is passed at every place tried, ekf", "not printed", ours, Verdict.NEW),
+        *(Claim(claim.text, claim.paper, claim.ours, Verdict.NEW) for claim in variants),
+    ]

@@ -1,0 +1,65 @@
+"""Gehring 2017, Fig. 8: pictures of a walk that becomes a trot, at swing apexes and touch-downs."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.image import imread
+
+from paper_figures.trial_claims import at_most, survival
+from quadlab.analysis.artefact import Artefact, Claim
+from quadlab.analysis.study_results import StudyResults
+from quadlab.plotting.style import TEXT_WIDTH, paper_style
+from quadlab.robots.legs import LEGS
+from quadlab.studies.config import load_study
+
+STUDY = "gehring2017_transition"
+ARTEFACT = Artefact("G-F8", "Gehring 2017, Fig. 8", "Transition from walk to trot", (STUDY,))
+COLUMNS = 4
+COM_BOUND_MM = 12.0
+
+
+@paper_style()
+def draw(results: StudyResults) -> Figure:
+    """Return the pictures in the order of time."""
+    pictures = results.snapshots(STUDY, "transition")
+    times = snapshot_times()
+    rows = -(-len(pictures) // COLUMNS)
+    figure = Figure(figsize=(TEXT_WIDTH, 1.35 * rows), layout="constrained")
+    for axes in figure.subplots(rows, COLUMNS, squeeze=False).flat:
+        axes.set_axis_off()
+    for number, (axes, path, time_s) in enumerate(zip(figure.axes, pictures, times, strict=False), 1):
+        picture = imread(path)
+        height, width = picture.shape[:2]
+        axes.imshow(picture[int(0.15 * height) : int(0.8 * height), int(0.2 * width) : int(0.9 * width)])
+        axes.set_title(f"{number}: {time_s:.3g} s", fontsize=6.5)
+    return figure
+
+
+def snapshot_times() -> tuple[float, ...]:
+    """Return when the pictures were taken, in [s], as the study says."""
+    return tuple(next(trace.snapshots_s for trace in load_study(STUDY).traces if trace.name == "transition"))
+
+
+def numbers(results: StudyResults) -> pd.DataFrame:
+    """Return which legs stand and how far the CoM is off, at each picture."""
+    trace = results.trace(STUDY, "transition")
+    places = [int(np.argmin(np.abs(trace.index - time_s))) for time_s in snapshot_times()]
+    rows = trace.iloc[places]
+    legs = {f"stands_{leg}": np.asarray(rows[f"control.planned_contact_{leg}"], dtype=int) for leg in LEGS}
+    error = np.hypot(np.asarray(rows["control.com_error_x"]), np.asarray(rows["control.com_error_y"]))
+    return pd.DataFrame({"time_s": rows.index.to_numpy(), **legs, "com_error_mm": 1e3 * error})
+
+
+def claims(results: StudyResults) -> list[Claim]:
+    """Return that it stays up and how closely it follows, with our gains and with the priorities of the paper."""
+    table = results.table(STUDY)
+    ours, printed = (table[table["controller"] == name] for name in ("hierarchical", "gehring2017"))
+    paper = "stays up"
+    return [
+        *(survival(f"stays up, {name}", rows, paper) for name, rows in ours.groupby("estimator")),
+        *(
+            at_most(f"CoM error, {name}", rows, "com_error_max_mm", COM_BOUND_MM, "mm", paper="not printed")
+            for name, rows in ours.groupby("estimator")
+        ),
+        survival("stays up with the priorities of the paper, ekf and truth", printed, paper),
+    ]

@@ -1,0 +1,52 @@
+"""The largest push survived, by direction and phase: claims that several artefacts share."""
+
+import pandas as pd
+
+from quadlab.analysis.artefact import Claim, Verdict, verdict
+
+PUSH_S = 0.15
+"""Duration of every push in [s]."""
+ANYMAL_KG = 30.475
+"""Mass of ANYmal B in [kg]."""
+VARIANTS = {
+    "planner vertex_zmp": "planner vertex_zmp",
+    "alignment none": "without alignment of the plan",
+    "alignment base": "base-centred alignment alone",
+    "alignment feet": "feet-centred alignment alone",
+    "no foothold feedback": "without foothold feedback",
+    "stack of the paper": "priorities of the paper",
+}
+
+
+def speeds_mps(limits: pd.DataFrame) -> "pd.Series[float]":
+    """Return the change of velocity J / m of the largest force survived, 0 where even the smallest fells it."""
+    return limits["limit"].fillna(0.0) * PUSH_S / ANYMAL_KG
+
+
+def limit_claims(limits: pd.DataFrame, needed_mps: tuple[float, float], what: str) -> list[Claim]:
+    """Return smallest and median push survived, judged for the reference and told for the variants.
+
+    Args:
+        limits: one row a direction and phase, by ``variant``.
+        needed_mps: smallest and median J / m in [m/s] that count as good; no paper prints any.
+        what: for the text.
+    """
+    reference = speeds_mps(limits[limits["variant"] == "reference"])
+    minimum, median = float(reference.min()), float(reference.median())
+    holds = minimum >= needed_mps[0] and median >= needed_mps[1]
+    why = "" if holds else f"Below the {needed_mps[0]:g} / {needed_mps[1]:g} m/s that its makers hoped for."
+    text = f"largest push survived ({what}), minimum / median J/m [m/s]"
+    partly = minimum >= needed_mps[0] or median >= needed_mps[1]
+    ours = f"{minimum:.2f} / {median:.2f}, {len(reference)} cases"
+    first = Claim(text, "not printed", ours, verdict(holds=holds, partly=partly), why)
+    return [first, *_variant_claims(limits, text)]
+
+
+def _variant_claims(limits: pd.DataFrame, text: str) -> list[Claim]:
+    claims = []
+    for level, name in VARIANTS.items():
+        speeds = speeds_mps(limits[limits["variant"] == level])
+        if len(speeds):
+            ours = f"{speeds.min():.2f} / {speeds.median():.2f}, {len(speeds)} cases"
+            claims.append(Claim(f"{text}: {name}", "not printed", ours, Verdict.NEW))
+    return claims
