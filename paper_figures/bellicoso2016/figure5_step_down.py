@@ -25,7 +25,7 @@ STEP_M, LEG_LENGTH_M = 0.14, 0.564
 def draw(results: StudyResults) -> Figure:
     """Return pictures of the descent above base height, pitch, roll and foot heights over time."""
     figure = Figure(figsize=(TEXT_WIDTH, 5.6), layout="constrained")
-    pictures, curves = figure.subfigures(2, 1, height_ratios=(1.0, 3.4))
+    pictures, curves = np.asarray(figure.subfigures(2, 1, height_ratios=(1.0, 3.4))).tolist()
     _draw_pictures(pictures.subplots(1, PICTURES), results)
     panels = curves.subplots(3, 2, sharex="col", sharey="row")
     for column, (name, trace) in zip(panels.T, TRACES.items(), strict=True):
@@ -85,7 +85,7 @@ def _curves(results: StudyResults, name: str) -> pd.DataFrame:
 def claims(results: StudyResults) -> list[Claim]:
     """Return at how many places the step is passed, with and without limb limits, and how the torso adapts."""
     table = results.table(STUDY)
-    groups = {key: rows for key, rows in table.groupby(["limits", "estimator"])}
+    groups = dict(list(table.groupby(["limits", "estimator"])))
     step = f"{100 * STEP_M:.0f} cm ({100 * STEP_M / LEG_LENGTH_M:.0f} % of thigh and shank)"
     slips = "Where it falls, a foot has touched the edge itself, slips off it and is searched for too late."
     good = [

@@ -1,0 +1,97 @@
+"""Winkler 2017, V-A.1: the walk of Table I with and without the robustness cost, tracked under disturbances."""
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+
+from paper_figures.trial_claims import completed, share
+from quadlab.analysis.artefact import Artefact, Claim, Verdict, verdict
+from quadlab.analysis.study_results import StudyResults
+from quadlab.analysis.support_margin import support_margins
+from quadlab.planners.plan import MotionPlan
+from quadlab.plotting.placed_plan import in_plan_frame
+from quadlab.plotting.style import COP, GROUND, MEASURED, TEXT_WIDTH, paper_style
+
+STUDY = "winkler2017_robustness"
+ARTEFACT = Artefact("W-X2", "Winkler 2017, V-A.1", "Walk with and without the robustness cost", (STUDY,))
+COSTS = {"robustness": "robustness cost", "acceleration": "CoM acceleration instead", "none": "no cost"}
+PERIOD_S = 0.01
+
+
+@paper_style()
+def draw(results: StudyResults) -> Figure:
+    """Return the plans from above, one a cost, above the distance of the CoP to the edge of the support."""
+    figure = Figure(figsize=(TEXT_WIDTH, 3.2), layout="constrained")
+    for column, (cost, name) in zip(figure.subplots(2, len(COSTS), sharey="row").T, COSTS.items(), strict=True):
+        plan = results.plan(STUDY, cost)
+        _draw_from_above(column[0], plan)
+        column[0].set_title(name, loc="left")
+        times, margins = support_margins(plan, PERIOD_S)
+        column[1].plot(times, 1e3 * margins, ".", color=COP, markersize=1.5)
+        column[1].set(xlabel="time [s]", ylim=(-10.0, None))
+    figure.axes[0].set_ylabel("y [m]")
+    figure.axes[1].set_ylabel("CoP to edge [mm]")
+    figure.axes[0].legend(loc="upper left", ncols=2)
+    return figure
+
+
+def _draw_from_above(axes: Axes, plan: MotionPlan) -> None:
+    placed = in_plan_frame(plan)
+    for support in placed.supports:
+        axes.add_patch(Polygon(support.corners, facecolor=GROUND, alpha=0.15, edgecolor="none"))
+    axes.plot(*placed.com.T, color=MEASURED, label="CoM")
+    axes.plot(*placed.cop.T, color=COP, linewidth=0.7, label="CoP")
+    axes.set(xlabel="x [m]", aspect="equal")
+
+
+def numbers(results: StudyResults) -> pd.DataFrame:
+    """Return the distance of the planned CoP to the edge of its support polygon over time, one block a cost."""
+    blocks = []
+    for cost in COSTS:
+        times, margins = support_margins(results.plan(STUDY, cost), PERIOD_S)
+        blocks.append(pd.DataFrame({"cost": cost, "time_s": times, "margin_mm": 1e3 * margins}))
+    return pd.concat(blocks, ignore_index=True)
+
+
+def claims(results: StudyResults) -> list[Claim]:
+    """Return how often each cost's walk stays up and how far its CoP is from the edge."""
+    table, margins = results.table(STUDY), numbers(results).groupby("cost")["margin_mm"]
+    robust, without = (table[table["cost"] == cost] for cost in ("robustness", "none"))
+    found = [
+        Claim(
+            f"stays up under all disturbances: {name}",
+            "fails" if cost == "none" else "walks" if cost == "robustness" else "-",
+            share(table[table["cost"] == cost]),
+            _verdict_of(cost, table[table["cost"] == cost]),
+            "A simulated robot without errors of model and ground forgives what the real one did not."
+            if cost == "none"
+            else "",
+        )
+        for cost, name in COSTS.items()
+    ]
+    better = len(completed(robust)) > len(completed(without))
+    median = {cost: float(margins.median()[cost]) for cost in COSTS}
+    return [
+        *found,
+        Claim(
+            "more walks stay up with the cost than without",
+            "yes",
+            f"{share(robust)} with, {share(without)} without",
+            verdict(holds=better),
+            "" if better else "Either way the controller holds the simulated robot up.",
+        ),
+        Claim(
+            "CoP to the edge of the support, median [mm]",
+            "larger with the cost",
+            ", ".join(f"{median[cost]:.0f} {name}" for cost, name in COSTS.items()),
+            verdict(holds=median["robustness"] > max(median["acceleration"], median["none"])),
+        ),
+    ]
+
+
+def _verdict_of(cost: str, rows: pd.DataFrame) -> Verdict:
+    good = len(completed(rows))
+    if cost == "none":
+        return verdict(holds=good == 0, partly=good < len(rows))
+    return verdict(holds=good == len(rows), partly=good > 0) if cost == "robustness" else Verdict.NEW

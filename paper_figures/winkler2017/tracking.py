@@ -1,0 +1,67 @@
+"""Winkler 2017, V: HyQ walks and trots the plans of Table I, tracked by projected inverse dynamics."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from paper_figures.trial_claims import at_most, survival
+from quadlab.analysis.artefact import Artefact, Claim
+from quadlab.analysis.study_results import StudyResults
+from quadlab.plotting.style import COP, MEASURED, REFERENCE, TEXT_WIDTH, paper_style
+
+STUDY = "winkler2017_tracking"
+ARTEFACT = Artefact("W-X1", "Winkler 2017, V", "HyQ follows the walk and the trot of Table I", (STUDY,))
+GAITS = ("walk", "trot")
+COM_BOUND_MM = 5.0
+PRINTED_HZ = 250
+
+
+@paper_style()
+def draw(results: StudyResults) -> Figure:
+    """Return, a column a gait, the CoM from above and the norm of its error over time."""
+    table = numbers(results)
+    figure = Figure(figsize=(TEXT_WIDTH, 3.2), layout="constrained")
+    for column, gait in zip(figure.subplots(2, len(GAITS), squeeze=False).T, GAITS, strict=True):
+        rows = table[table["gait"] == gait]
+        above, over_time = column
+        above.plot(rows["cop_x_m"], rows["cop_y_m"], ".", color=COP, markersize=1.5, label="desired CoP")
+        above.plot(rows["reference_x_m"], rows["reference_y_m"], color=REFERENCE, linewidth=2.0, label="desired CoM")
+        above.plot(rows["com_x_m"], rows["com_y_m"], "--", color=MEASURED, label="measured CoM")
+        above.set(xlabel="x [m]", ylabel="y [m]")
+        above.set_title(f"{gait}, {PRINTED_HZ} Hz", loc="left")
+        over_time.plot(rows["time_s"], rows["error_mm"], color=MEASURED)
+        over_time.set(xlabel="time [s]", ylabel="CoM error [mm]", ylim=(0.0, None))
+    figure.axes[0].legend(loc="upper left", ncols=3, fontsize=6.0)
+    return figure
+
+
+def numbers(results: StudyResults) -> pd.DataFrame:
+    """Return CoM, reference, desired CoP and error over time, one block a gait."""
+    return pd.concat([_curves(results, gait) for gait in GAITS], ignore_index=True)
+
+
+def _curves(results: StudyResults, gait: str) -> pd.DataFrame:
+    trace = results.trace(STUDY, gait)
+    sources = {"reference": "com_reference", "com": "com", "cop": "cop_reference"}
+    places = {
+        f"{name}_{axis}_m": np.asarray(trace[f"control.{column}_{axis}"])
+        for name, column in sources.items()
+        for axis in "xy"
+    }
+    error = 1e3 * np.linalg.norm(trace[["control.com_error_x", "control.com_error_y"]], axis=1)
+    return pd.DataFrame({"gait": gait, "time_s": trace.index.to_numpy(), **places, "error_mm": error})
+
+
+def claims(results: StudyResults) -> list[Claim]:
+    """Return that both gaits stay up and how closely they follow, by rate and estimator."""
+    table = results.table(STUDY)
+    found = []
+    for (gait, rate, estimator), rows in table.groupby(["gait", "rate_hz", "estimator"], sort=False):
+        name = f"{gait}, {rate} Hz, {estimator}"
+        found.append(survival(f"stays up: {name}", rows, "the real robot did" if rate == PRINTED_HZ else "-"))
+        rest = rows[rows["start"] == "nominal"]
+        if (rest["status"] == "completed").any():
+            why = "The plan's point mass leaves out what the swinging legs do to the CoM."
+            text = f"CoM error from the nominal start: {name}"
+            found.append(at_most(text, rest, "com_error_max_mm", COM_BOUND_MM, "mm", paper="not printed", why=why))
+    return found
