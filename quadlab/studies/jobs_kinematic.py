@@ -1,25 +1,20 @@
 """The kinematic planner alone, from the nominal stance: how it converges, what it costs and how long it takes."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-import numpy as np
 from threadpoolctl import threadpool_limits
 
 from quadlab.errors import ConfigurationError
 from quadlab.planners.kinematic_sqp.config import KinematicSqpConfig
 from quadlab.planners.kinematic_sqp.planner import KinematicSqpPlanner
-from quadlab.planners.plan import PlanReport
-from quadlab.planners.plan_io import save_plan
-from quadlab.planners.planner import PlanningOutcome
-from quadlab.planners.problem import PlanningProblem
+from quadlab.planners.kinematic_sqp.sqp import Minimum, minimise, objective_history
+from quadlab.planners.planner import PlanningStatus
 from quadlab.robots.model import load_robot
-from quadlab.studies.jobs import DIRECTORY, FAILURE, Row, current_commit, plan_numbers, study_job
+from quadlab.studies.jobs import FAILURE, Row, current_commit, study_job
 from quadlab.trials.compose import compose_trial
-from quadlab.trials.config import RunOptions, TrialConfig
-from quadlab.trials.plan_job import PLAN_FILE, plan_directory
+from quadlab.trials.config import TrialConfig
 from quadlab.trials.planning import planning_problem
 
 REPETITIONS = 7
@@ -27,29 +22,34 @@ REPETITIONS = 7
 
 
 @study_job("kinematic_cycles")
-def kinematic_cycles_row(overrides: Sequence[str], folder: Path) -> Row:
-    """Plan from the nominal stance and return costs by objective, totals by iteration and times as a row."""
+def kinematic_cycles_row(overrides: Sequence[str], _: Path) -> Row:
+    """Minimise from the nominal stance and return costs by objective, totals by iteration and times as a row.
+
+    The minimum is not checked as a plan: cycles without a stance after them end in motion.
+    """
     config = compose_trial([*overrides, "tag=cycles"])
-    problem = standing_problem(config)
+    planner_config = kinematic_config(config)
+    robot = load_robot(config.robot)
+    problem = planning_problem(config, robot, robot.nominal_state())
+    builds_ms, solves_ms = [], []
     with threadpool_limits(1):
-        runs = [timed_plan(kinematic_config(config), problem) for _ in range(REPETITIONS)]
-    plan = runs[-1].outcome.plan
-    row: Row = {
-        "status": runs[-1].outcome.status.value,
-        FAILURE: runs[-1].outcome.reason,
+        for _repetition in range(REPETITIONS):
+            built = KinematicSqpPlanner(planner_config).build(problem)
+            minimum = minimise(built.program, planner_config.sqp)
+            builds_ms.append(built.build_ms)
+            solves_ms.append(minimum.solve_ms)
+    return {
+        "status": (PlanningStatus.SOLVED if minimum.converged else PlanningStatus.SOLVER_LIMIT).value,
+        FAILURE: minimum.reason,
         "robot": config.robot.name,
         "gait": config.gait.name,
         "planner": config.planner.name,
+        "iterations": len(minimum.steps),
+        "build_ms": median(builds_ms),
+        "solve_ms": median(solves_ms),
+        **costs(minimum),
         "commit": current_commit(),
     }
-    if plan is None:
-        return row
-    directory = plan_directory(config, RunOptions(force=False, results_dir=str(folder)))
-    directory.mkdir(parents=True, exist_ok=True)
-    save_plan(plan, directory / PLAN_FILE)
-    times = {name: median(getattr(run, name) for run in runs) for name in ("build_ms", "solve_ms")}
-    place = {DIRECTORY: str(directory.relative_to(folder))}
-    return {**row, **place, **plan_numbers(plan), **times, **totals(plan.report)}
 
 
 def kinematic_config(config: TrialConfig) -> KinematicSqpConfig:
@@ -59,41 +59,12 @@ def kinematic_config(config: TrialConfig) -> KinematicSqpConfig:
         ConfigurationError: if it is another planner.
     """
     if not isinstance(config.planner, KinematicSqpConfig):
-        raise ConfigurationError(
-            f"planner: '{config.planner.name}' has no objectives of Table I; expected kinematic_sqp"
-        )
+        raise ConfigurationError(f"planner: '{config.planner.name}' has no objectives; expected kinematic_sqp")
     return config.planner
 
 
-def standing_problem(config: TrialConfig) -> PlanningProblem:
-    """Return the problem that begins in the robot's nominal stance, as in Gehring 2017, Sec. IV."""
-    robot = load_robot(config.robot)
-    return planning_problem(config, robot, robot.nominal_state())
-
-
-@dataclass(frozen=True)
-class TimedPlan:
-    """One planning run.
-
-    Attributes:
-        outcome: of the planner.
-        build_ms, solve_ms: wall times in [ms]; not a number without a plan.
-    """
-
-    outcome: PlanningOutcome
-    build_ms: float
-    solve_ms: float
-
-
-def timed_plan(config: KinematicSqpConfig, problem: PlanningProblem) -> TimedPlan:
-    """Return what a planner that knows nothing of earlier runs makes of ``problem``."""
-    planner = KinematicSqpPlanner(config)
-    build = planner.build(problem)
-    outcome = planner.solve(build)
-    return TimedPlan(outcome, build.build_ms, outcome.plan.report.solve_ms if outcome.plan else np.nan)
-
-
-def totals(report: PlanReport) -> dict[str, float]:
-    """Return the objective of the guess, ``total_0``, after every iteration, and at the end, ``total``."""
-    objectives = [sum(costs.values()) for costs in report.cost_history]
-    return {"total": objectives[-1], **{f"total_{k}": value for k, value in enumerate(objectives)}}
+def costs(minimum: Minimum) -> dict[str, float]:
+    """Return the cost of each objective, their sum, ``total``, and that of the guess and after each iteration."""
+    objectives = {f"cost_{name}": float(value) for name, value in minimum.history[-1].items()}
+    totals = [float(value) for value in objective_history(minimum)]
+    return {**objectives, "total": totals[-1], **{f"total_{k}": value for k, value in enumerate(totals)}}

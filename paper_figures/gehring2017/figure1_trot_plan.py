@@ -1,0 +1,57 @@
+"""Gehring 2017, Fig. 1: a trot plan in space."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from quadlab.analysis.artefact import Artefact, Claim, Verdict, verdict
+from quadlab.analysis.study_results import StudyResults
+from quadlab.planners.plan import MotionPlan
+from quadlab.plotting.plan_space_figure import plan_space_figure
+from quadlab.plotting.style import paper_style
+from quadlab.robots.legs import LEGS
+
+STUDY = "gehring2017_trot"
+ARTEFACT = Artefact("G-F1", "Gehring 2017, Fig. 1", "A trot plan in space", (STUDY,))
+SPEED = 0.03
+"""Share by which the speed may be off."""
+HEIGHT_MM, TILT_DEG, TORQUE_NM = 3.0, 0.7, 40.0
+
+
+@paper_style()
+def draw(results: StudyResults) -> Figure:
+    """Return feet, CoM and base of the plan in a 3-D view."""
+    return plan_space_figure(results.plan(STUDY, "trot"))
+
+
+def numbers(results: StudyResults) -> pd.DataFrame:
+    """Return the footholds in the plan frame."""
+    plan = results.plan(STUDY, "trot")
+    rows = [
+        (leg, number, *(float(value) for value in place))
+        for leg, places in zip(LEGS, plan.footholds, strict=True)
+        for number, place in enumerate(places)
+    ]
+    return pd.DataFrame(rows, columns=["leg", "stance", "x_m", "y_m", "z_m"])
+
+
+def claims(results: StudyResults) -> list[Claim]:
+    """Return that the checker accepts the plan, and how the robot trots it for 10 s."""
+    plan = results.plan(STUDY, "trot")
+    table = results.table(STUDY)
+    rows = table[(table["controller"] == "hierarchical") & (table["status"] == "completed")]
+    violated = ", ".join(plan.verdict.violated)
+    text = "the plan passes the independent checker"
+    checked = Claim(text, "-", violated or "passes", verdict(holds=plan.verdict.accepted))
+    return [checked, *(_tracking(str(name), group, plan) for name, group in rows.groupby("estimator"))]
+
+
+def _tracking(estimator: str, rows: pd.DataFrame, plan: MotionPlan) -> Claim:
+    planned = float(plan.com(plan.duration_s)[0] - plan.com(0.0)[0])
+    speed = float((rows["distance_m"] / planned - 1.0).abs().max())
+    height, tilt, torque = (
+        float(rows[column].max()) for column in ("base_height_rms_mm", "roll_pitch_rms_deg", "torque_max_nm")
+    )
+    holds = speed <= SPEED and height <= HEIGHT_MM and tilt <= TILT_DEG and torque <= TORQUE_NM
+    ours = f"{100 * speed:.1f} % off, {height:.2g} mm, {tilt:.2g} deg rms, {torque:.0f} N m, worst of {len(rows)}"
+    text = f"10 s of trot, {estimator}: distance, base height, roll and pitch, torque"
+    return Claim(text, "not printed", ours, Verdict.REPRODUCED if holds else Verdict.PARTLY)

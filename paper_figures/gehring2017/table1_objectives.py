@@ -1,0 +1,89 @@
+"""Gehring 2017, Table I: weights and final costs of the objectives, three motions."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from quadlab.analysis.artefact import Artefact, Claim, verdict
+from quadlab.analysis.study_results import StudyResults
+from quadlab.planners.kinematic_sqp.config import KinematicSqpConfig
+from quadlab.plotting.style import paper_style
+from quadlab.plotting.table_figure import TableText, table_figure
+from quadlab.trials.compose import compose_trial
+
+STUDY = "gehring2017_table1"
+ARTEFACT = Artefact("G-TAB1", "Gehring 2017, Table I", "Costs of the objectives", (STUDY,))
+MOTIONS = ("walk", "trot", "transition")
+PRINTED = {
+    "com_consistency": ("Center of mass consistency", 1e5, (0.41, 0.01, 0.12)),
+    "feet_consistency": ("End-effectors consistency", 1e5, (0.23, 0.01, 0.09)),
+    "dynamic_stability": ("Dynamic stability", 1e3, (2.18, 0.02, 1.00)),
+    "travel_distance_transition": ("Traveling distance of 1st cycle", 1e3, (11.95, 2.91, 15.79)),
+    "travel_distance_periodic": ("Traveling distance of 2nd cycle", 3e3, (5.71, 0.25, 1.64)),
+    "turning_angle_periodic": ("Turning angle of 2nd cycle", 1e3, (0.05, 0.00, 0.00)),
+    "smooth_base": ("Smooth base motion", 1e2, (5.57, 0.04, 1.12)),
+    "smooth_joints": ("Smooth joint motions", 1e1, (3.08, 1.26, 1.46)),
+    "smooth_com": ("Smooth center of mass motion", 1e1, (0.40, 0.001, 0.10)),
+    "smooth_feet": ("Smooth end effector motions", 1e1, (2.27, 0.08, 0.34)),
+}
+"""Name, weight and costs of walk, trot and transition as printed; our names of the objectives as keys."""
+WHY = (
+    "The paper prints neither the distances of trot and transition nor clearance, w_min and regulariser; only "
+    "magnitudes can be compared."
+)
+
+
+@paper_style()
+def draw(results: StudyResults) -> Figure:
+    """Return the table: name, weight, then cost here and in the paper by motion."""
+    header = (
+        ("", "", *(name for motion in MOTIONS for name in (motion, ""))),
+        ("objective", "weight", *(("here", "paper") * len(MOTIONS))),
+    )
+    rows = [
+        (
+            name,
+            f"{weight:.0e}",
+            *(cell for motion in MOTIONS for cell in _cells(numbers(results), objective, motion)),
+        )
+        for objective, (name, weight, _) in PRINTED.items()
+    ]
+    return table_figure(TableText(header, tuple(rows)))
+
+
+def _cells(table: pd.DataFrame, objective: str, motion: str) -> tuple[str, str]:
+    row = table[(table["objective"] == objective) & (table["motion"] == motion)].iloc[0]
+    return f"{row['cost']:.3f}", f"{row['paper']:.3g}"
+
+
+def numbers(results: StudyResults) -> pd.DataFrame:
+    """Return one row an objective and motion: weight in the paper, cost here and in the paper."""
+    table = results.table(STUDY).set_index("motion")
+    rows = [
+        (objective, weight, motion, float(table.loc[motion, f"cost_{objective}"]), printed)  # type: ignore[arg-type]
+        for objective, (_, weight, costs) in PRINTED.items()
+        for motion, printed in zip(MOTIONS, costs, strict=True)
+    ]
+    return pd.DataFrame(rows, columns=["objective", "weight", "motion", "cost", "paper"])
+
+
+def claims(results: StudyResults) -> list[Claim]:
+    """Return the totals beside the paper's, and whether our weights are the printed ones."""
+    table = numbers(results)
+    found = []
+    for motion in MOTIONS:
+        ours, paper = table.loc[table["motion"] == motion, ["cost", "paper"]].sum()
+        similar = 0.1 < ours / paper < 10.0
+        text = f"{motion}: sum of the costs of all objectives"
+        found.append(Claim(text, f"{paper:.3g}", f"{ours:.3g}", verdict(holds=False, partly=similar), WHY))
+    used = shipped_weights()
+    same = [name for name, (_, weight, _) in PRINTED.items() if used.get(name) == weight]
+    text = "weights of the objectives as printed"
+    return [*found, Claim(text, str(len(PRINTED)), str(len(same)), verdict(holds=len(same) == len(PRINTED)))]
+
+
+def shipped_weights() -> dict[str, float]:
+    """Return the weights in ``conf/planner/kinematic_sqp.yaml`` by objective."""
+    planner = compose_trial(["planner=kinematic_sqp"]).planner
+    if not isinstance(planner, KinematicSqpConfig):
+        raise TypeError(f"conf/planner/kinematic_sqp.yaml: a {type(planner).__name__}")
+    return {name: float(value) for name, value in planner.weights.model_dump().items()}
