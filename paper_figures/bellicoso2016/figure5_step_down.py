@@ -58,7 +58,7 @@ def _draw_trial(panels: "np.ndarray[tuple[int], np.dtype[np.object_]]", trace: p
     for leg, colour in zip(LEGS, LEG_COLOURS, strict=True):
         for_feet.plot(times, trace[f"control.foot_position_{leg}_z"], color=colour, label=leg)
     _label(for_height, "base height [m]", (0.2, 0.56))
-    _label(for_angles, "angle [deg]", (-12.0, 12.0))
+    _label(for_angles, "angle [deg]", (-16.0, 16.0))
     _label(for_feet, "foot height [m]", (-0.25, 0.15))
     for_feet.set_xlabel("time [s]")
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import quadlab.studies.jobs_kinematic  # noqa: F401 - its job can be named in a study
+import quadlab.studies.jobs_kinematic
+import quadlab.studies.jobs_table_one  # noqa: F401 - their jobs can be named in a study
 from quadlab.errors import QuadlabError
 from quadlab.studies.condition import Condition
 from quadlab.studies.config import StudyConfig, TraceConfig

@@ -1,0 +1,77 @@
+"""Winkler 2017, Fig. 3: a biped with square feet, its support areas and its CoP."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+from scipy.spatial import ConvexHull
+
+from quadlab.analysis.artefact import Artefact, Claim, verdict
+from quadlab.analysis.study_results import StudyResults
+from quadlab.geometry.rotations import Array
+from quadlab.planners.plan import MotionPlan
+from quadlab.planners.sampling import turned_vertices
+from quadlab.planners.vertex_zmp.biped import SQUARE_FOOT
+from quadlab.plotting.style import COLUMN_WIDTH, COP, GROUND, LEG_COLOURS, MEASURED, paper_style
+
+STUDY = "winkler2017_table1"
+ARTEFACT = Artefact("W-F3", "Winkler 2017, Fig. 3", "A biped with square feet", (STUDY,))
+FEET = ("left", "right")
+INSIDE_MM = 0.1
+
+
+@paper_style()
+def draw(results: StudyResults) -> Figure:
+    """Return feet, the hulls of both feet in double support, CoM and CoP from above."""
+    plan = results.plan(STUDY, "biped")
+    figure = Figure(figsize=(COLUMN_WIDTH, 2.4), layout="constrained")
+    axes = figure.subplots()
+    for corners in double_supports(plan):
+        hull = corners[ConvexHull(corners).vertices]
+        axes.add_patch(Polygon(hull, facecolor=GROUND, alpha=0.25, edgecolor="none"))
+    for foot, (name, colour) in enumerate(zip(FEET, LEG_COLOURS, strict=False)):
+        for number, corners in enumerate(foot_corners(plan, foot)):
+            label = name if number == 0 else ""
+            axes.add_patch(Polygon(corners, fill=False, edgecolor=colour, linewidth=1.0, label=label))
+    times = np.arange(0.0, plan.duration_s, 0.01)
+    axes.plot(*np.array([plan.com(time)[:2] for time in times]).T, color=MEASURED, label="CoM")
+    axes.plot(*np.array([plan.cop(time) for time in times]).T, ".", color=COP, markersize=1.5, label="CoP")
+    axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    axes.legend(loc="upper left", ncols=4)
+    axes.margins(y=0.25)
+    return figure
+
+
+def foot_corners(plan: MotionPlan, foot: int) -> list[Array]:
+    """Return the corners of a foot in each of its stances, (4, 2) in [m]."""
+    pairs = zip(plan.footholds[foot], plan.foot_yaws[foot], strict=True)
+    return [place[:2] + turned_vertices(SQUARE_FOOT, float(yaw)) for place, yaw in pairs]
+
+
+def double_supports(plan: MotionPlan) -> list[Array]:
+    """Return the corners of both feet in every phase in which both stand, (8, 2) in [m]."""
+    stances = [0, 0]
+    phases = [np.concatenate([foot_corners(plan, foot)[stances[foot]] for foot in range(2)])]
+    swings = sorted((swing.end_s, foot) for foot in range(2) for swing in plan.schedule.swings[foot])
+    for _, foot in swings:
+        stances[foot] += 1
+        phases.append(np.concatenate([foot_corners(plan, each)[stances[each]] for each in range(2)]))
+    return phases
+
+
+def numbers(results: StudyResults) -> pd.DataFrame:
+    """Return position and yaw of each foot in each stance."""
+    plan = results.plan(STUDY, "biped")
+    rows = [
+        (name, number, float(place[0]), float(place[1]), float(np.degrees(yaw)))
+        for foot, name in enumerate(FEET)
+        for number, (place, yaw) in enumerate(zip(plan.footholds[foot], plan.foot_yaws[foot], strict=True))
+    ]
+    return pd.DataFrame(rows, columns=["foot", "stance", "x_m", "y_m", "yaw_deg"])
+
+
+def claims(results: StudyResults) -> list[Claim]:
+    """Return that the CoP stays in the rotated feet and uses their area."""
+    outside = results.plan(STUDY, "biped").verdict.values["cop_outside_mm"]
+    text = "CoP inside the area of the standing feet: farthest outside [mm]"
+    return [Claim(text, "inside", f"{outside:.1g}", verdict(holds=outside < INSIDE_MM))]

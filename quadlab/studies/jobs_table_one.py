@@ -1,0 +1,69 @@
+"""The vertex-ZMP planner on the motions of Winkler 2017, Table I, and on its biped: sizes, times, verdicts."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from quadlab.errors import ConfigurationError
+from quadlab.planners.plan_io import save_plan
+from quadlab.planners.planner import PlanningOutcome
+from quadlab.planners.problem import PlanningProblem
+from quadlab.planners.vertex_zmp.biped import SQUARE_FOOT, biped_problem
+from quadlab.planners.vertex_zmp.planner import VertexZmpPlanner
+from quadlab.planners.vertex_zmp.table_one import TABLE_ONE, table_one_changes, table_one_problem
+from quadlab.studies.jobs import DIRECTORY, FAILURE, Row, current_commit, plan_numbers, study_job
+from quadlab.trials.compose import compose_trial
+from quadlab.trials.plan_job import PLAN_FILE
+from quadlab.trials.problems import suggestion
+
+REPETITIONS = 5
+"""Of building and solving, for the medians of the wall times; one more goes before them."""
+BIPED = "biped"
+BIPED_STEPS, BIPED_GOAL = 4, np.array([0.6, 0.2, 0.3])  # x, y in [m], yaw in [rad]
+CASES = {case.name: case for case in TABLE_ONE}
+
+
+@study_job("table_one")
+def table_one_row(overrides: Sequence[str], folder: Path) -> Row:
+    """Plan ``case=<column of Table I, or biped>`` in ``transcription=fast|paper``; return sizes and times as a row."""
+    options = dict(override.split("=", 1) for override in overrides)
+    problem, changes = case_problem(options["case"], options["transcription"])
+    composed: Any = compose_trial(["planner=vertex_zmp"]).planner
+    settings = composed.model_dump()
+    planner = VertexZmpPlanner(VertexZmpPlanner.Config.model_validate({**settings, **changes}))
+    with threadpool_limits(1):
+        outcomes = [_built_and_solved(planner, problem) for _ in range(1 + REPETITIONS)][1:]
+    last = outcomes[-1][1]
+    row: Row = {"status": last.status.value, FAILURE: last.reason, "commit": current_commit()}
+    if last.plan is None:
+        return row
+    directory = folder / "trials" / "_".join(options.values()).replace(" ", "_")
+    directory.mkdir(parents=True, exist_ok=True)
+    save_plan(last.plan, directory / PLAN_FILE)
+    times = {
+        "build_ms": median(build_ms for build_ms, _ in outcomes),
+        "solve_ms": median(outcome.plan.report.solve_ms for _, outcome in outcomes if outcome.plan),
+    }
+    return {**row, DIRECTORY: str(directory.relative_to(folder)), **plan_numbers(last.plan), **times}
+
+
+def case_problem(name: str, transcription: str) -> tuple[PlanningProblem, dict[str, object]]:
+    """Return a case with the settings of the planner that belong to it.
+
+    Raises:
+        ConfigurationError: if there is none of that name.
+    """
+    if name == BIPED:
+        return biped_problem(SQUARE_FOOT, BIPED_STEPS, BIPED_GOAL), {"transcription": transcription}
+    if name not in CASES:
+        raise ConfigurationError(f"case: unknown '{name}'; {suggestion(name, [*CASES, BIPED])}")
+    return table_one_problem(CASES[name]), table_one_changes(CASES[name], transcription)
+
+
+def _built_and_solved(planner: VertexZmpPlanner, problem: PlanningProblem) -> tuple[float, PlanningOutcome]:
+    built = planner.build(problem)
+    return built.build_ms, planner.solve(built)
