@@ -61,7 +61,7 @@ def claims(results: StudyResults) -> list[Claim]:
         found.append(survival(f"stays up: {name}", rows, "the real robot did" if rate == PRINTED_HZ else "-"))
         rest = rows[rows["start"] == "nominal"]
         if (rest["status"] == "completed").any():
-            why = "The plan's point mass leaves out what the swinging legs do to the CoM."
+            why = "It peaks where hind and fore leg of the other side follow each other; the cause was not isolated."
             text = f"CoM error from the nominal start: {name}"
             found.append(at_most(text, rest, "com_error_max_mm", COM_BOUND_MM, "mm", paper="not printed", why=why))
     return found
