@@ -3,8 +3,7 @@
 import sys
 
 from paper_figures.gallery import artefact_scripts
-from paper_figures.reproduction import FOLDER, draw_all
-from paper_figures.summary import write_summary
+from paper_figures.reproduction import FOLDER, draw_all, write_overviews
 from quadlab.analysis.study_results import StudyResults
 from quadlab.studies.progress import StudyProgress
 
@@ -14,7 +13,7 @@ def main(names: list[str]) -> int:
     results = StudyResults(FOLDER.parent / "results")
     progress = StudyProgress()
     missing = draw_all(artefact_scripts(names), results, progress)
-    for path in write_summary(artefact_scripts([]), results):
+    for path in write_overviews(results):
         progress.say(str(path.relative_to(FOLDER.parent)))
     return 1 if missing else 0
 

@@ -9,6 +9,8 @@ from typing import Literal
 from pydantic import Field, ValidationError
 
 from paper_figures.gallery import ArtefactScript, artefact_scripts, draw_artefact
+from paper_figures.readme_table import write_readme
+from paper_figures.report_page import write_page
 from paper_figures.summary import judge, write_summary
 from quadlab.analysis.study_results import StudyResults
 from quadlab.configuration import StrictModel
@@ -76,7 +78,7 @@ def reproduce(options: ReproduceOptions, progress: StudyProgress) -> int:
     studies = list(dict.fromkeys(study for script in scripts for study in script.artefact.studies))
     errors = run_studies(studies, results.folder, options.jobs, progress)
     missing = draw_all(scripts, results, progress)
-    write_summary(artefact_scripts([]), results)
+    write_overviews(results)
     for entry in judge(scripts, results):
         progress.say(f"{entry.script.artefact.source:28s} {entry.verdict:15s} {entry.script.artefact.title}")
         for claim in entry.claims:
@@ -97,6 +99,14 @@ def chosen_scripts(options: ReproduceOptions) -> list[ArtefactScript]:
         names = {script.name for script in scripts}
         raise ConfigurationError(f"artefact: unknown '{options.artefact}'; {suggestion(options.artefact, names)}")
     return chosen
+
+
+def write_overviews(results: StudyResults) -> list[Path]:
+    """Write what tells of all artefacts together: table of claims, page, and the table in the README."""
+    scripts = artefact_scripts([])
+    page = write_page(scripts, results, FOLDER)
+    readme = write_readme(FOLDER.parent / "README.md", judge(scripts, results))
+    return [*write_summary(scripts, results), page, readme]
 
 
 def draw_all(scripts: Sequence[ArtefactScript], results: StudyResults, progress: StudyProgress) -> int:
