@@ -9,7 +9,6 @@ PUSH_S = 0.15
 ANYMAL_KG = 30.475
 """Mass of ANYmal B in [kg]."""
 VARIANTS = {
-    "planner vertex_zmp": "planner vertex_zmp",
     "alignment none": "without alignment of the plan",
     "alignment base": "base-centred alignment alone",
     "alignment feet": "feet-centred alignment alone",

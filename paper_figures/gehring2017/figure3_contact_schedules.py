@@ -1,6 +1,6 @@
-"""Gehring 2017, Fig. 3: which leg stands at which sample of the lateral walk and of the trot.
+"""Gehring 2017, Fig. 3: which leg stands at which sample of walk, trot and the transition.
 
-Reads ``conf/gait/walk.yaml`` and ``conf/gait/trot.yaml``.
+Reads ``conf/gait/``.
 """
 
 import numpy as np
@@ -13,22 +13,24 @@ from matplotlib.ticker import FixedLocator
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.gaits.gait import CycleConfig, GaitConfig
+from quadlab.gaits.schedule import BoolArray
 from quadlab.paths import CONF_DIR
 from quadlab.plotting.style import COLUMN_WIDTH, paper_style
 from quadlab.robots.legs import LEGS
 
 ARTEFACT = Artefact("G-F3", "Gehring 2017, Fig. 3", "Contact schedules of the experiments", ())
-PANELS = (("a", "lateral walk", "walk"), ("b", "trot", "trot"))
+PANELS = (("a", "lateral walk", "walk"), ("b", "trot", "trot"), ("c", "walk to trot", "walk_to_trot_cycles"))
 
 
 @paper_style()
 def draw(_: StudyResults) -> Figure:
     """Return the figure: one panel a gait, dark where a leg stands."""
-    figure = Figure(figsize=(COLUMN_WIDTH, 2.2), layout="constrained")
-    for axes, (letter, title, gait) in zip(figure.subplots(2, 1), PANELS, strict=True):
-        cycle = first_cycle(gait)
-        draw_cycle(axes, cycle)
-        axes.set_title(f"({letter}) {title}, {cycle.stride_duration_s:g} s a stride", loc="left")
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.2), layout="constrained")
+    for axes, (letter, title, gait) in zip(figure.subplots(len(PANELS), 1), PANELS, strict=True):
+        strides = cycles(gait)
+        draw_contacts(axes, contacts(strides))
+        durations = " and ".join(f"{cycle.stride_duration_s:g} s" for cycle in strides)
+        axes.set_title(f"({letter}) {title}, {durations} a stride", loc="left")
     return figure
 
 
@@ -38,7 +40,7 @@ def numbers(_: StudyResults) -> pd.DataFrame:
         [
             {"gait": gait, "leg": leg, "sample": sample + 1, "stands": int(stands)}
             for _, _, gait in PANELS
-            for leg, column in zip(LEGS, first_cycle(gait).contacts().T, strict=True)
+            for leg, column in zip(LEGS, contacts(cycles(gait)).T, strict=True)
             for sample, stands in enumerate(column)
         ]
     )
@@ -46,21 +48,25 @@ def numbers(_: StudyResults) -> pd.DataFrame:
 
 def claims(_: StudyResults) -> list[Claim]:
     """Return what the paper's text says of the schedules; they are inputs."""
-    samples = len(first_cycle("walk").contacts())
+    samples = len(contacts(cycles("walk")))
     return [Claim("samples of a stride", "16", str(samples), Verdict.REPRODUCED, "The schedules are inputs.")]
 
 
-def first_cycle(gait: str) -> CycleConfig:
-    """Return the first cycle of ``conf/gait/<gait>.yaml``."""
+def cycles(gait: str) -> list[CycleConfig]:
+    """Return the cycles of ``conf/gait/<gait>.yaml``."""
     text = (CONF_DIR / "gait" / f"{gait}.yaml").read_text(encoding="utf-8")
-    return GaitConfig.model_validate(yaml.safe_load(text)).cycles[0]
+    return list(GaitConfig.model_validate(yaml.safe_load(text)).cycles)
 
 
-def draw_cycle(axes: Axes, cycle: CycleConfig) -> None:
-    """Draw one stride, a row a leg and a column a sample."""
-    contacts = cycle.contacts()
-    samples = len(contacts)
-    axes.imshow(~contacts.T, cmap="gray", vmin=-0.25, vmax=1.0, aspect="auto", interpolation="none")
+def contacts(strides: list[CycleConfig]) -> BoolArray:
+    """Return which legs stand at the samples of all cycles, one after the other, (samples, 4)."""
+    return np.vstack([cycle.contacts() for cycle in strides])
+
+
+def draw_contacts(axes: Axes, stands: BoolArray) -> None:
+    """Draw a row a leg and a column a sample."""
+    samples = len(stands)
+    axes.imshow(~stands.T, cmap="gray", vmin=-0.25, vmax=1.0, aspect="auto", interpolation="none")
     axes.set_yticks(range(len(LEGS)), LEGS)
     axes.set_xticks(np.arange(0, samples, 3), [str(sample + 1) for sample in range(0, samples, 3)])
     axes.xaxis.set_minor_locator(FixedLocator(list(np.arange(-0.5, samples))))

@@ -31,7 +31,7 @@ def draw(results: StudyResults) -> Figure:
         column[1].plot(times, 1e3 * margins, ".", color=COP, markersize=1.5)
         column[1].set(xlabel="time [s]", ylim=(-10.0, None))
     figure.axes[0].set_ylabel("y [m]")
-    figure.axes[1].set_ylabel("CoP to edge [mm]")
+    figure.axes[len(COSTS)].set_ylabel("CoP to edge [mm]")
     figure.axes[0].legend(loc="upper left", ncols=2)
     return figure
 

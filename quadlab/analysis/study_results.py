@@ -67,5 +67,7 @@ class StudyResults:
     def _file(self, study: str, name: str) -> Path:
         path = self.folder / study / name
         if not path.is_file():
-            raise LogError(f"{path}: not there; python experiments/run_study.py {study} makes it")
+            raise LogError(
+                f"{path.relative_to(self.folder.parent)}: not there; python experiments/run_study.py {study} makes it"
+            )
         return path

@@ -21,7 +21,7 @@ def support_margins(plan: MotionPlan, period_s: float) -> tuple[Array, Array]:
         Times in [s] and distances in [m], (n,) each; times at which fewer than three feet stand are left out.
     """
     times, margins = [], []
-    for time_s in np.arange(0.0, plan.duration_s, period_s):
+    for time_s in np.arange(0.5 * period_s, plan.duration_s, period_s):
         feet = standing_feet(plan, float(time_s))
         if len(feet) >= POLYGON_FEET:
             times.append(float(time_s))
