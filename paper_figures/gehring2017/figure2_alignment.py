@@ -1,0 +1,111 @@
+"""Gehring 2017, Fig. 2: where a plan lies for a robot that was pushed, by way of aligning it; from a logged push."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from quadlab.analysis.artefact import Artefact, Claim, verdict
+from quadlab.analysis.study_results import StudyResults
+from quadlab.controllers.tracking.alignment import (
+    PlanarPose,
+    base_alignment,
+    feet_alignment,
+    identity_alignment,
+)
+from quadlab.geometry.rotations import Array
+from quadlab.planners.plan import MotionPlan
+from quadlab.plotting.style import MEASURED, SERIES, TEXT_WIDTH, paper_style
+from quadlab.robots.legs import LEGS
+
+STUDY = "gehring2017_walk_push"
+ARTEFACT = Artefact("G-F2", "Gehring 2017, Fig. 2", "Alignment of a plan with a robot that was pushed", (STUDY,))
+AFTER_PUSH_S = 0.25
+"""Time of the picture after the end of the push."""
+
+
+@dataclass(frozen=True)
+class Moment:
+    """Plan and robot at one time.
+
+    Attributes:
+        com, feet: measured in the world, (2,) and (4, 2) in [m].
+        planned_com, planned_feet: in the plan frame.
+    """
+
+    com: Array
+    feet: Array
+    planned_com: Array
+    planned_feet: Array
+
+    def alignments(self) -> dict[str, PlanarPose]:
+        """Return the ways to lay the plan; the mixed one takes the torso feet-centred, swing feet base-centred."""
+        feet = feet_alignment(self.planned_feet, self.feet)
+        base = base_alignment(self.planned_com, 0.0, self.com, feet.yaw)
+        return {"unaligned": identity_alignment(), "base-centred": base, "feet-centred": feet}
+
+
+@paper_style()
+def draw(results: StudyResults) -> Figure:
+    """Return one panel a way of alignment: the measured feet and CoM in black, the plan in colour."""
+    now = moment(results)
+    figure = Figure(figsize=(TEXT_WIDTH, 2.0), layout="constrained")
+    ways = now.alignments()
+    panels = figure.subplots(1, len(ways) + 1, sharex=True, sharey=True)
+    for axes, (name, colour) in zip(panels, zip([*ways, "mixed"], SERIES[1:] * 2, strict=False), strict=True):
+        torso, swing = (ways["feet-centred"], ways["base-centred"]) if name == "mixed" else (ways[name], ways[name])
+        feet = np.array([swing.position(foot) for foot in now.planned_feet])
+        axes.plot(*now.feet.T, "o", color=MEASURED, markersize=5.0, fillstyle="none", label="measured foot")
+        axes.plot(*now.com, "P", color=MEASURED, markersize=5.0, label="measured CoM")
+        axes.plot(*feet.T, "o", color=colour, markersize=2.5, label="planned foot")
+        axes.plot(*torso.position(now.planned_com), "X", color=colour, markersize=5.0, label="planned CoM")
+        axes.set_title(name, loc="left")
+        axes.set(xlabel="x [m]", aspect="equal")
+    panels[0].set_ylabel("y [m]")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4)
+    return figure
+
+
+def moment(results: StudyResults) -> Moment:
+    """Return plan and robot ``AFTER_PUSH_S`` after the end of the push of the kept trial."""
+    trace, plan = results.trace(STUDY, "push"), results.plan(STUDY, "push")
+    pushed = trace.index[(trace["state.push_force_y"] != 0.0).to_numpy()]
+    time_s = float(pushed[-1]) + AFTER_PUSH_S
+    row = trace.iloc[int(np.argmin(np.abs(trace.index - time_s)))]
+    feet = np.array([[row[f"control.foot_position_{leg}_{axis}"] for axis in "xy"] for leg in LEGS])
+    com = np.array([row["control.com_x"], row["control.com_y"]])
+    return Moment(com, feet, plan.com(time_s)[:2], planned_feet(plan, time_s))
+
+
+def planned_feet(plan: MotionPlan, time_s: float) -> Array:
+    """Return where each foot stands by plan, or lifted off if it swings, (4, 2) in the plan frame in [m]."""
+    landed = [sum(swing.end_s <= time_s for swing in plan.schedule.swings[leg]) for leg in range(len(LEGS))]
+    return np.array([plan.footholds[leg][count][:2] for leg, count in enumerate(landed)])
+
+
+def numbers(results: StudyResults) -> pd.DataFrame:
+    """Return how far the plan's CoM and feet are from the robot's by way of alignment, in [mm]."""
+    now = moment(results)
+    rows = []
+    for name, pose in now.alignments().items():
+        com = np.linalg.norm(pose.position(now.planned_com) - now.com)
+        feet = np.linalg.norm(
+            np.mean([pose.position(foot) for foot in now.planned_feet], axis=0) - now.feet.mean(axis=0)
+        )
+        rows.append((name, 1e3 * com, 1e3 * feet))
+    return pd.DataFrame(rows, columns=["alignment", "com_off_mm", "mean_foot_off_mm"])
+
+
+def claims(results: StudyResults) -> list[Claim]:
+    """Return what each way of alignment brings together."""
+    table = numbers(results).set_index("alignment")
+    base, feet = (float(table["com_off_mm"].loc["base-centred"]), float(table["mean_foot_off_mm"].loc["feet-centred"]))
+    off = float(table["com_off_mm"].loc["unaligned"])
+    return [
+        Claim("base-centred: planned and measured base coincide", "yes", f"{base:.2g} mm apart, {off:.0f} mm unaligned",
+              verdict(holds=base < 0.1)),
+        Claim("feet-centred: means of planned and measured feet coincide", "yes", f"{feet:.2g} mm apart",
+              verdict(holds=feet < 0.1)),
+    ]  # fmt: skip

@@ -1,0 +1,88 @@
+"""Every table and figure of the papers is drawn from the results kept with the code, always with the same bytes."""
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from paper_figures.gallery import FLOAT_FORMAT, ArtefactScript, artefact_scripts, draw_artefact
+from paper_figures.readme_table import with_table
+from paper_figures.report_page import origins, write_page
+from paper_figures.reproduction import FOLDER
+from paper_figures.summary import judge
+from quadlab.analysis.study_results import StudyResults
+from quadlab.errors import LogError
+from quadlab.studies.config import study_names
+
+ROOT = FOLDER.parent
+RESULTS = StudyResults(ROOT / "results")
+SCRIPTS = artefact_scripts([])
+NAMES = [f"{script.paper}.{script.name}" for script in SCRIPTS]
+WANTED = {
+    *("G-F1", "G-F2", "G-F3", "G-F4", "G-TAB1", "G-F5", "G-F6", "G-F7", "G-F8"),
+    *("W-TAB1", "W-F2", "W-F3", "W-F5", "W-X1", "W-X2", "W-X3"),
+    *("B-F4", "B-F56", "X-S1"),
+}
+each_script = pytest.mark.parametrize("script", SCRIPTS, ids=NAMES)
+
+
+def needs_results(script: ArtefactScript) -> None:
+    try:
+        script.claims(RESULTS)
+    except LogError as error:
+        pytest.skip(str(error))
+
+
+@each_script
+def test_two_drawings_are_the_same_bytes(script: ArtefactScript, tmp_path: Path) -> None:
+    needs_results(script)
+    once, again = (draw_artefact(script, RESULTS, tmp_path / name) for name in ("once", "again"))
+    for first, second in zip(once, again, strict=True):
+        assert first.read_bytes() == second.read_bytes(), first.name
+
+
+@each_script
+def test_kept_numbers_are_those_of_the_kept_results(script: ArtefactScript) -> None:
+    needs_results(script)
+    kept = (FOLDER / script.paper / f"{script.name}.csv").read_text(encoding="utf-8")
+    assert kept == script.numbers(RESULTS).to_csv(index=False, float_format=FLOAT_FORMAT)
+
+
+@each_script
+def test_claims_say_something(script: ArtefactScript) -> None:
+    needs_results(script)
+    for claim in script.claims(RESULTS):
+        assert claim.text
+        assert claim.paper
+        assert claim.ours
+        assert "nan" not in claim.ours
+
+
+@each_script
+def test_studies_of_an_artefact_exist(script: ArtefactScript) -> None:
+    assert set(script.artefact.studies) <= set(study_names())
+
+
+def test_every_table_and_figure_has_a_script() -> None:
+    counts = Counter(script.artefact.identifier for script in SCRIPTS)
+    assert set(counts) >= WANTED
+    assert {name for name, count in counts.items() if count > 1} <= {"X-S1"}
+
+
+def test_readme_shows_the_verdicts_of_the_kept_results() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert text == with_table(text, judge(SCRIPTS, RESULTS)), "python -m paper_figures renews the table"
+
+
+def test_page_needs_no_network_and_holds_every_claim(tmp_path: Path) -> None:
+    page = write_page(SCRIPTS, StudyResults(tmp_path), FOLDER).read_text(encoding="utf-8")
+    assert "src=" in page  # what needs no results is drawn
+    assert "http" not in page
+    assert all(script.artefact.title in page for script in SCRIPTS)
+
+
+def test_origins_are_those_of_the_manifests() -> None:
+    for entry in judge(SCRIPTS, RESULTS):
+        for origin in origins(entry, RESULTS):
+            assert origin.jobs > 0
+            assert origin.packages
