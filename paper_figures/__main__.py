@@ -3,19 +3,28 @@
 import sys
 
 from paper_figures.gallery import artefact_scripts
-from paper_figures.reproduction import FOLDER, draw_all, write_overviews
+from paper_figures.reproduction import EXIT_FAILED, EXIT_USAGE, FOLDER, draw_all, write_overviews
 from quadlab.analysis.study_results import StudyResults
+from quadlab.errors import ConfigurationError
 from quadlab.studies.progress import StudyProgress
 
 
 def main(names: list[str]) -> int:
-    """Draw the artefacts whose names contain one of ``names`` (all of them if none are given) and say where."""
+    """Draw the artefacts whose names contain one of ``names`` (all of them if none are given) and say where.
+
+    Exit code 1 if results of some are missing, 2 if there is none of that name.
+    """
     results = StudyResults(FOLDER.parent / "results")
     progress = StudyProgress()
-    missing = draw_all(artefact_scripts(names), results, progress)
-    for path in write_overviews(results):
+    try:
+        missing = draw_all(artefact_scripts(names), results, progress)
+        paths = write_overviews(results)
+    except ConfigurationError as error:
+        sys.stderr.write(f"quadlab: {error}\n")
+        return EXIT_USAGE
+    for path in paths:
         progress.say(str(path.relative_to(FOLDER.parent)))
-    return 1 if missing else 0
+    return EXIT_FAILED if missing else 0
 
 
 if __name__ == "__main__":

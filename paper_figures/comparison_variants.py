@@ -13,6 +13,6 @@ PUSH_S = 0.15  # [s] of every push
 ANYMAL_KG = 30.475  # [kg]
 
 
-def artefact(title: str) -> Artefact:
-    """Return the description of a figure of the comparison."""
-    return Artefact("X-S1", "comparison", title, (STUDY,))
+def artefact(part: str, title: str) -> Artefact:
+    """Return the description of one figure of the comparison, of which ``part`` tells it from the others."""
+    return Artefact(f"X-S1 {part}", "comparison", title, (STUDY,))

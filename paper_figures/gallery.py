@@ -20,10 +20,18 @@ from matplotlib.figure import Figure
 import paper_figures
 from quadlab.analysis.artefact import Artefact, Claim
 from quadlab.analysis.study_results import StudyResults
+from quadlab.errors import ConfigurationError
 from quadlab.plotting.figure_files import save_figure
 from quadlab.trials.files import write_text
 
 FLOAT_FORMAT = "%.6g"
+PAPERS = {
+    "gehring2017": "Gehring 2017",
+    "winkler2017": "Winkler 2017",
+    "bellicoso2016": "Bellicoso 2016",
+    "comparison": "A comparison that no paper has",
+}
+"""Title of each folder, in the order of all overviews."""
 
 
 @dataclass(frozen=True)
@@ -51,14 +59,20 @@ class ArtefactScript:
 
 
 def artefact_scripts(names: Sequence[str]) -> list[ArtefactScript]:
-    """Return all scripts whose ``<paper>.<module>`` contains one of ``names``, or all if none are given."""
+    """Return all scripts whose ``<paper>.<module>`` contains one of ``names``, or all if none are given.
+
+    Raises:
+        ConfigurationError: if no script has such a name.
+    """
     found = []
     for module in pkgutil.walk_packages(paper_figures.__path__, "paper_figures."):
         _, paper, *rest = module.name.split(".")
         if rest and (not names or any(name in f"{paper}.{rest[0]}" for name in names)):
             script = importlib.import_module(module.name)
             found.append(ArtefactScript(paper, rest[0], script.ARTEFACT, script.draw, script.numbers, script.claims))
-    return found
+    if not found:
+        raise ConfigurationError(f"artefact: unknown '{' '.join(names)}'; expected a part of <paper>.<script>")
+    return sorted(found, key=lambda script: list(PAPERS).index(script.paper))
 
 
 def draw_artefact(script: ArtefactScript, results: StudyResults, folder: Path) -> list[Path]:

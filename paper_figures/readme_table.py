@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from paper_figures.summary import Judged
+from quadlab.errors import ConfigurationError
 from quadlab.trials.files import write_text
 
 BEGIN, END = "<!-- artefacts: begin -->", "<!-- artefacts: end -->"
@@ -17,8 +18,7 @@ def readme_table(judged: Sequence[Judged]) -> str:
         source = (
             f"[{artefact.source}](paper_figures/{script.paper}/{script.name}.png)" if entry.claims else artefact.source
         )
-        command = f"`python experiments/reproduce.py paper={script.paper} artefact={script.name}`"
-        lines.append(f"| {source} | {artefact.title} | {command} | {entry.verdict} |")
+        lines.append(f"| {source} | {artefact.title} | `{script.command}` | {entry.verdict} |")
     return "\n".join(lines)
 
 
@@ -26,12 +26,12 @@ def with_table(text: str, judged: Sequence[Judged]) -> str:
     """Return the README's ``text`` with its table renewed.
 
     Raises:
-        ValueError: if a mark is missing.
+        ConfigurationError: if a mark is missing.
     """
     before, begin, rest = text.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not (begin and end):
-        raise ValueError(f"README.md: expected the marks '{BEGIN}' and '{END}'")
+        raise ConfigurationError(f"README.md: expected the marks '{BEGIN}' and '{END}'")
     return f"{before}{BEGIN}\n{readme_table(judged)}\n{END}{after}"
 
 

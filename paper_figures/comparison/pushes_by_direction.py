@@ -10,7 +10,7 @@ from quadlab.analysis.artefact import Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import TEXT_WIDTH, paper_style
 
-ARTEFACT = artefact("Largest push survived by direction")
+ARTEFACT = artefact("directions", "Largest push survived by direction")
 GAITS = ("trot", "walk")
 
 

@@ -15,7 +15,7 @@ from quadlab.analysis.statistics import Interval
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import TEXT_WIDTH, paper_style
 
-ARTEFACT = artefact("Weighted or hierarchical, kinematic or vertex ZMP")
+ARTEFACT = artefact("differences", "Weighted or hierarchical, kinematic or vertex ZMP")
 
 
 @dataclass(frozen=True)
