@@ -86,7 +86,7 @@ def claims(results: StudyResults) -> list[Claim]:
         Claim(
             "the reference in y adapts",
             "adapts",
-            f"{moved_mm:.0f} mm to the left of where it was before the push",
+            f"by {abs(moved_mm):.0f} mm to the {'left' if moved_mm > 0.0 else 'right'}",
             verdict(holds=abs(moved_mm) > 10.0),
         ),
         *limit_claims(results.limits(LIMITS), NEEDED_MPS, f"walk, {PUSH_S} s"),
