@@ -77,7 +77,8 @@ def test_readme_shows_the_verdicts_of_the_kept_results() -> None:
 
 
 def test_page_needs_no_network_and_holds_every_claim(tmp_path: Path) -> None:
-    page = write_page(SCRIPTS, StudyResults(tmp_path), FOLDER).read_text(encoding="utf-8")
+    nothing = StudyResults(tmp_path)
+    page = write_page(judge(SCRIPTS, nothing), nothing, FOLDER).read_text(encoding="utf-8")
     assert "src=" in page  # what needs no results is drawn
     assert "http" not in page
     assert all(script.artefact.title in page for script in SCRIPTS)
