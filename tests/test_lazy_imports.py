@@ -17,7 +17,7 @@ HELP = "import contextlib; from quadlab.cli import main\nwith contextlib.suppres
     ("code", "forbidden"),
     [
         (HELP, PHYSICS | TABLES | HYDRA | {"numpy", "pydantic"}),
-        ("from quadlab.cli import main; main(['run', '--cfg', 'job'])", PHYSICS | TABLES),
+        ("from quadlab.cli import main; main(['run', '--cfg', 'job'])", PHYSICS | TABLES | {"numpy"}),
         ("import quadlab.studies.main", PHYSICS | TABLES | HYDRA),
         ("from paper_figures.reproduction import main; main(['artefact=none'])", PHYSICS | HYDRA),
     ],
