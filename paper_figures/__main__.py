@@ -4,6 +4,7 @@ import sys
 
 from paper_figures.gallery import artefact_scripts
 from paper_figures.reproduction import EXIT_FAILED, EXIT_USAGE, FOLDER, draw_all, write_overviews
+from paper_figures.summary import judge
 from quadlab.analysis.study_results import StudyResults
 from quadlab.errors import ConfigurationError
 from quadlab.studies.progress import StudyProgress
@@ -18,7 +19,7 @@ def main(names: list[str]) -> int:
     progress = StudyProgress()
     try:
         missing = draw_all(artefact_scripts(names), results, progress)
-        paths = write_overviews(results)
+        paths = write_overviews(judge(artefact_scripts([]), results), results)
     except ConfigurationError as error:
         sys.stderr.write(f"quadlab: {error}\n")
         return EXIT_USAGE

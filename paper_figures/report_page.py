@@ -7,9 +7,9 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from paper_figures.gallery import PAPERS, ArtefactScript
+from paper_figures.gallery import PAPERS
 from paper_figures.study_origin import Origin, study_origins
-from paper_figures.summary import Judged, judge
+from paper_figures.summary import Judged
 from quadlab.analysis.artefact import Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.trials.files import write_text
@@ -17,10 +17,10 @@ from quadlab.trials.files import write_text
 TEMPLATE = "report_page.html.jinja"
 
 
-def write_page(scripts: Sequence[ArtefactScript], results: StudyResults, figures: Path) -> Path:
+def write_page(judged: Sequence[Judged], results: StudyResults, figures: Path) -> Path:
     """Write ``report.html`` beside the results and return its path; figures are read from ``figures``."""
     path = results.folder / "report.html"
-    write_text(path, page(judge(scripts, results), results, figures))
+    write_text(path, page(judged, results, figures))
     return path
 
 

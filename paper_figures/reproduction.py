@@ -11,7 +11,7 @@ from pydantic import Field, ValidationError
 from paper_figures.gallery import ArtefactScript, artefact_scripts, draw_artefact
 from paper_figures.readme_table import write_readme
 from paper_figures.report_page import write_page
-from paper_figures.summary import judge, write_summary
+from paper_figures.summary import Judged, judge, write_summary
 from quadlab.analysis.study_results import StudyResults
 from quadlab.configuration import StrictModel
 from quadlab.errors import ConfigurationError, QuadlabError
@@ -78,8 +78,9 @@ def reproduce(options: ReproduceOptions, progress: StudyProgress) -> int:
     studies = list(dict.fromkeys(study for script in scripts for study in script.artefact.studies))
     errors = run_studies(studies, results.folder, options.jobs, progress)
     missing = draw_all(scripts, results, progress)
-    write_overviews(results)
-    for entry in judge(scripts, results):
+    judged = judge(artefact_scripts([]), results)
+    write_overviews(judged, results)
+    for entry in [entry for entry in judged if entry.script in scripts]:
         progress.say(f"{entry.script.artefact.source:28s} {entry.verdict:15s} {entry.script.artefact.title}")
         for claim in entry.claims:
             progress.say(f"    {claim.verdict.value:15s} {claim.text}: {claim.ours} (paper: {claim.paper})")
@@ -101,12 +102,11 @@ def chosen_scripts(options: ReproduceOptions) -> list[ArtefactScript]:
     return chosen
 
 
-def write_overviews(results: StudyResults) -> list[Path]:
+def write_overviews(judged: Sequence[Judged], results: StudyResults) -> list[Path]:
     """Write what tells of all artefacts together: table of claims, page, and the table in the README."""
-    scripts = artefact_scripts([])
-    page = write_page(scripts, results, FOLDER)
-    readme = write_readme(FOLDER.parent / "README.md", judge(scripts, results))
-    return [*write_summary(scripts, results), page, readme]
+    page = write_page(judged, results, FOLDER)
+    readme = write_readme(FOLDER.parent / "README.md", judged)
+    return [*write_summary(judged, results.folder), page, readme]
 
 
 def draw_all(scripts: Sequence[ArtefactScript], results: StudyResults, progress: StudyProgress) -> int:

@@ -47,10 +47,9 @@ def _judged(script: ArtefactScript, results: StudyResults) -> Judged:
         return Judged(script, (), str(error))
 
 
-def write_summary(scripts: Sequence[ArtefactScript], results: StudyResults) -> list[Path]:
-    """Write the table of claims as CSV and Markdown beside the results and return the paths."""
-    judged = judge(scripts, results)
-    table, text = results.folder / "artefacts.csv", results.folder / "artefacts.md"
+def write_summary(judged: Sequence[Judged], folder: Path) -> list[Path]:
+    """Write the table of claims as CSV and Markdown into ``folder`` and return the paths."""
+    table, text = folder / "artefacts.csv", folder / "artefacts.md"
     write_text(table, claim_table(judged).to_csv(index=False))
     write_text(text, artefact_lines(judged))
     return [table, text]

@@ -1,14 +1,15 @@
 """Gehring 2017, Table I: weights and final costs of the objectives, three motions."""
 
 import pandas as pd
+import yaml
 from matplotlib.figure import Figure
 
 from quadlab.analysis.artefact import Artefact, Claim, verdict
 from quadlab.analysis.study_results import StudyResults
+from quadlab.paths import CONF_DIR
 from quadlab.planners.kinematic_sqp.config import KinematicSqpConfig
 from quadlab.plotting.style import paper_style
 from quadlab.plotting.table_figure import TableText, table_figure
-from quadlab.trials.compose import compose_trial
 
 STUDY = "gehring2017_table1"
 ARTEFACT = Artefact("G-TAB1", "Gehring 2017, Table I", "Costs of the objectives", (STUDY,))
@@ -39,12 +40,9 @@ def draw(results: StudyResults) -> Figure:
         ("", "", *(name for motion in MOTIONS for name in (motion, ""))),
         ("objective", "weight", *(("here", "paper") * len(MOTIONS))),
     )
+    table = numbers(results)
     rows = [
-        (
-            name,
-            f"{weight:.0e}",
-            *(cell for motion in MOTIONS for cell in _cells(numbers(results), objective, motion)),
-        )
+        (name, f"{weight:.0e}", *(cell for motion in MOTIONS for cell in _cells(table, objective, motion)))
         for objective, (name, weight, _) in PRINTED.items()
     ]
     return table_figure(TableText(header, tuple(rows)))
@@ -83,7 +81,6 @@ def claims(results: StudyResults) -> list[Claim]:
 
 def shipped_weights() -> dict[str, float]:
     """Return the weights in ``conf/planner/kinematic_sqp.yaml`` by objective."""
-    planner = compose_trial(["planner=kinematic_sqp"]).planner
-    if not isinstance(planner, KinematicSqpConfig):
-        raise TypeError(f"conf/planner/kinematic_sqp.yaml: a {type(planner).__name__}")
-    return {name: float(value) for name, value in planner.weights.model_dump().items()}
+    text = (CONF_DIR / "planner" / "kinematic_sqp.yaml").read_text(encoding="utf-8")
+    weights = KinematicSqpConfig.model_validate(yaml.safe_load(text)).weights
+    return {name: float(value) for name, value in weights.model_dump().items()}

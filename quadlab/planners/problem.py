@@ -1,13 +1,16 @@
 """The planning problem, one type for all planners: where the robot is, where to, and when which foot stands."""
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from quadlab.gaits.schedule import ContactSchedule
 from quadlab.geometry.rotations import Array
-from quadlab.robots.model import RobotModel
 from quadlab.robots.state import RobotState
+
+if TYPE_CHECKING:  # loads pinocchio, which a problem for a pendulum needs not
+    from quadlab.robots.model import RobotModel
 
 GRAVITY = 9.81  # [m/s^2]
 
@@ -81,4 +84,4 @@ class PlanningProblem:
     waypoints: Waypoints
     schedule: ContactSchedule
     model: PlanningModel
-    robot: RobotModel | None = None
+    robot: "RobotModel | None" = None

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from quadlab.paths import CONF_DIR
+from quadlab.studies.config import TraceConfig
 from quadlab.trials.files import write_json
 
 
@@ -60,6 +61,12 @@ class StudyFolder:
     def row(self, identifier: str) -> Path:
         """What is remembered of one job; not tracked."""
         return self.path / "rows" / f"{identifier}.json"
+
+
+def trace_files(trace: TraceConfig, folder: StudyFolder) -> list[Path]:
+    """Return the files that ``write_trace`` leaves."""
+    pictures = [folder.snapshot(trace.name, number) for number in range(len(trace.snapshots_s))]
+    return [folder.trace(trace.name), folder.events(trace.name), folder.plan(trace.name), *pictures]
 
 
 def read_row(folder: StudyFolder, identifier: str, settings: str) -> dict[str, Any] | None:

@@ -3,12 +3,13 @@
 import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from quadlab.errors import ConfigurationError
 from quadlab.paths import checkout_dir
 from quadlab.planners.plan import MotionPlan
 from quadlab.studies.files import file_hash
+from quadlab.studies.rows import DIRECTORY, FAILURE, Row
 from quadlab.trials.compose import compose_trial
 from quadlab.trials.config import RunOptions
 from quadlab.trials.job import run_job
@@ -19,14 +20,10 @@ from quadlab.trials.progress import SilentProgress
 from quadlab.trials.recording.topics import LOG_FILE
 from quadlab.trials.result import TrialStatus
 
-Row: TypeAlias = dict[str, Any]
 Job: TypeAlias = Callable[[Sequence[str], Path], Row]
 """Takes overrides and the study's folder; leaves its files below it and returns a row with a ``status``."""
 
 JOBS: dict[str, Job] = {}
-DIRECTORY = "directory"
-"""Column of the folder, relative to that of the study, in which a job left its files."""
-FAILURE = "status_reason"
 
 
 def job_named(name: str) -> Job:

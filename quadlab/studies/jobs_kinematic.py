@@ -12,7 +12,8 @@ from quadlab.planners.kinematic_sqp.planner import KinematicSqpPlanner
 from quadlab.planners.kinematic_sqp.sqp import Minimum, minimise, objective_history
 from quadlab.planners.planner import PlanningStatus
 from quadlab.robots.model import load_robot
-from quadlab.studies.jobs import FAILURE, Row, current_commit, study_job
+from quadlab.studies.jobs import current_commit, study_job
+from quadlab.studies.rows import FAILURE, Row
 from quadlab.trials.compose import compose_trial
 from quadlab.trials.config import TrialConfig
 from quadlab.trials.planning import planning_problem

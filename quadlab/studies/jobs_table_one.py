@@ -15,7 +15,8 @@ from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.vertex_zmp.biped import SQUARE_FOOT, biped_problem
 from quadlab.planners.vertex_zmp.planner import VertexZmpPlanner
 from quadlab.planners.vertex_zmp.table_one import TABLE_ONE, table_one_changes, table_one_problem
-from quadlab.studies.jobs import DIRECTORY, FAILURE, Row, current_commit, plan_numbers, study_job
+from quadlab.studies.jobs import current_commit, plan_numbers, study_job
+from quadlab.studies.rows import DIRECTORY, FAILURE, Row
 from quadlab.trials.compose import compose_trial
 from quadlab.trials.plan_job import PLAN_FILE
 from quadlab.trials.problems import suggestion

@@ -18,7 +18,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the studies that the arguments name and return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, epilog=f"studies: {', '.join(study_names())}")
     parser.add_argument("study", nargs="+", help="name of a file in conf/study")
-    parser.add_argument("--jobs", type=int, default=usable_cores(), help="processes at a time")
+    parser.add_argument("--jobs", type=_positive, default=usable_cores(), help="processes at a time")
     parser.add_argument("--results", type=Path, default=Path("results"), help="folder of all results")
     options = parser.parse_args(arguments)
     progress = StudyProgress()
@@ -35,6 +35,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         report = options.results / name / "report.md"
         progress.say(f"{report}:\n{report.read_text(encoding='utf-8')}")
     return EXIT_FAILED if errors else 0
+
+
+def _positive(text: str) -> int:
+    if not (text.isdecimal() and int(text) > 0):
+        raise argparse.ArgumentTypeError(f"expected a whole number above 0 (got '{text}')")
+    return int(text)
 
 
 def usable_cores() -> int:

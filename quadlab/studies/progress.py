@@ -5,7 +5,7 @@ import time
 from dataclasses import dataclass, field
 from typing import Any, TextIO
 
-from quadlab.studies.jobs import FAILURE
+from quadlab.studies.rows import FAILURE
 from quadlab.trials.result import TrialStatus
 
 GOOD = {TrialStatus.COMPLETED.value, "solved"}

@@ -21,12 +21,6 @@ from quadlab.studies.config import TraceConfig
 from quadlab.studies.files import StudyFolder
 
 
-def trace_files(trace: TraceConfig, folder: StudyFolder) -> list[Path]:
-    """Return the files that ``write_trace`` leaves."""
-    pictures = [folder.snapshot(trace.name, number) for number in range(len(trace.snapshots_s))]
-    return [folder.trace(trace.name), folder.events(trace.name), folder.plan(trace.name), *pictures]
-
-
 def write_trace(trace: TraceConfig, folder: StudyFolder, directory: Path) -> None:
     """Keep what ``trace`` asks for of the trial in ``directory``.
 

@@ -9,6 +9,7 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
 
 import hydra
 from hydra.core.hydra_config import HydraConfig
@@ -17,8 +18,10 @@ from omegaconf import DictConfig
 
 from quadlab.errors import QuadlabError
 from quadlab.paths import CONF_DIR
-from quadlab.planners.plan import MotionPlan
 from quadlab.trials.override_problems import COMPOSITION_ERRORS, UNTYPED_COMPOSITION_ERRORS, composition_problem
+
+if TYPE_CHECKING:
+    from quadlab.planners.plan import MotionPlan
 
 EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
@@ -31,7 +34,7 @@ class JobFailedError(Exception):
         self.exit_code = exit_code
 
 
-DrawPlan = Callable[[MotionPlan, Path], object]
+DrawPlan: TypeAlias = "Callable[[MotionPlan, Path], object]"
 """Leaves figures of a plan in a folder."""
 
 

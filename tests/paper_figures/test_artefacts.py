@@ -1,6 +1,6 @@
 """Every table and figure of the papers is drawn from the results kept with the code, always with the same bytes."""
 
-from collections import Counter
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -9,9 +9,8 @@ from paper_figures.gallery import FLOAT_FORMAT, ArtefactScript, artefact_scripts
 from paper_figures.readme_table import with_table
 from paper_figures.report_page import origins, write_page
 from paper_figures.reproduction import FOLDER
-from paper_figures.summary import judge
+from paper_figures.summary import Judged, judge
 from quadlab.analysis.study_results import StudyResults
-from quadlab.errors import LogError
 from quadlab.studies.config import study_names
 
 ROOT = FOLDER.parent
@@ -26,11 +25,14 @@ WANTED = {
 each_script = pytest.mark.parametrize("script", SCRIPTS, ids=NAMES)
 
 
+@cache
+def judged(script: ArtefactScript) -> Judged:
+    return judge([script], RESULTS)[0]
+
+
 def needs_results(script: ArtefactScript) -> None:
-    try:
-        script.claims(RESULTS)
-    except LogError as error:
-        pytest.skip(str(error))
+    if judged(script).problem:
+        pytest.skip(judged(script).problem)
 
 
 @each_script
@@ -51,7 +53,7 @@ def test_kept_numbers_are_those_of_the_kept_results(script: ArtefactScript) -> N
 @each_script
 def test_claims_say_something(script: ArtefactScript) -> None:
     needs_results(script)
-    for claim in script.claims(RESULTS):
+    for claim in judged(script).claims:
         assert claim.text
         assert claim.paper
         assert claim.ours
@@ -64,26 +66,26 @@ def test_studies_of_an_artefact_exist(script: ArtefactScript) -> None:
 
 
 def test_every_table_and_figure_has_a_script() -> None:
-    counts = Counter(script.artefact.identifier for script in SCRIPTS)
-    missing = [name for name in WANTED if not any(found.startswith(name) for found in counts)]
-    assert not missing
-    assert max(counts.values()) == 1
+    identifiers = [script.artefact.identifier for script in SCRIPTS]
+    assert not WANTED - {identifier.split()[0] for identifier in identifiers}
+    assert len(set(identifiers)) == len(identifiers)
 
 
 def test_readme_shows_the_verdicts_of_the_kept_results() -> None:
     text = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert text == with_table(text, judge(SCRIPTS, RESULTS)), "python -m paper_figures renews the table"
+    assert text == with_table(text, [judged(script) for script in SCRIPTS]), "python -m paper_figures renews the table"
 
 
 def test_page_needs_no_network_and_holds_every_claim(tmp_path: Path) -> None:
-    page = write_page(SCRIPTS, StudyResults(tmp_path), FOLDER).read_text(encoding="utf-8")
+    nothing = StudyResults(tmp_path)
+    page = write_page(judge(SCRIPTS, nothing), nothing, FOLDER).read_text(encoding="utf-8")
     assert "src=" in page  # what needs no results is drawn
     assert "http" not in page
     assert all(script.artefact.title in page for script in SCRIPTS)
 
 
 def test_origins_are_those_of_the_manifests() -> None:
-    for entry in judge(SCRIPTS, RESULTS):
+    for entry in map(judged, SCRIPTS):
         for origin in origins(entry, RESULTS):
             assert origin.jobs > 0
             assert origin.packages

@@ -1,0 +1,23 @@
+"""The command that runs studies answers a mistake in one line and exit code 2."""
+
+from pathlib import Path
+
+import pytest
+
+from quadlab.studies.main import main
+
+
+def test_unknown_study_names_the_closest_one(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["aceptance", "--results", str(tmp_path)]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("quadlab: unknown study 'aceptance'; did you mean 'acceptance'")
+    assert error.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("jobs", ["0", "-1", "two"])
+def test_number_of_processes_is_above_zero(jobs: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(["acceptance", "--jobs", jobs])
+    assert stop.value.code == 2
+    assert f"expected a whole number above 0 (got '{jobs}')" in capsys.readouterr().err
