@@ -6,6 +6,13 @@ from quadlab.analysis.artefact import Claim, Verdict, verdict
 from quadlab.studies.report import success_share
 
 COMPLETED = "completed"
+SILENT = ("-", "not printed", "not measured")
+"""What stands in place of the paper's value where it has none."""
+
+
+def judged(paper: str, *, holds: bool, partly: bool = False) -> Verdict:
+    """Return the verdict, which is "new" where the paper says nothing that could be reproduced."""
+    return Verdict.NEW if paper in SILENT else verdict(holds=holds, partly=partly)
 
 
 def completed(rows: pd.DataFrame) -> pd.DataFrame:
@@ -22,7 +29,7 @@ def survival(text: str, rows: pd.DataFrame, paper: str, needed: int | None = Non
     """Return the claim that ``needed`` of ``rows``, all if not given, stay up; ``why`` is said where they do not."""
     good = len(completed(rows))
     holds = good >= (len(rows) if needed is None else needed)
-    return Claim(text, paper, share(rows), verdict(holds=holds, partly=good > 0), "" if holds else why)
+    return Claim(text, paper, share(rows), judged(paper, holds=holds, partly=good > 0), "" if holds else why)
 
 
 def at_most(text: str, rows: pd.DataFrame, column: str, limit: float, unit: str, *, paper: str, why: str = "") -> Claim:
@@ -31,7 +38,7 @@ def at_most(text: str, rows: pd.DataFrame, column: str, limit: float, unit: str,
     worst, median = float(values.max()), float(values.median())
     holds = worst <= limit
     ours = f"{median:.3g} {unit} median, {worst:.3g} {unit} worst of {len(values)}"
-    return Claim(text, paper, ours, verdict(holds=holds, partly=median <= limit), "" if holds else why)
+    return Claim(text, paper, ours, judged(paper, holds=holds, partly=median <= limit), "" if holds else why)
 
 
 def variant_claims(rows: pd.DataFrame, column: str, names: dict[str, str]) -> list[Claim]:

@@ -13,6 +13,7 @@ STUDY = "winkler2017_tracking"
 ARTEFACT = Artefact("W-X1", "Winkler 2017, V", "HyQ follows the walk and the trot of Table I", (STUDY,))
 GAITS = ("walk", "trot")
 COM_BOUND_MM = 5.0
+FALLS = "The falls were not diagnosed."
 PRINTED_HZ = 250
 
 
@@ -58,7 +59,9 @@ def claims(results: StudyResults) -> list[Claim]:
     found = []
     for (gait, rate, estimator), rows in table.groupby(["gait", "rate_hz", "estimator"], sort=False):
         name = f"{gait}, {rate} Hz, {estimator}"
-        found.append(survival(f"stays up: {name}", rows, "the real robot did" if rate == PRINTED_HZ else "-"))
+        found.append(
+            survival(f"stays up: {name}", rows, "the real robot did" if rate == PRINTED_HZ else "-", why=FALLS)
+        )
         rest = rows[rows["start"] == "nominal"]
         if (rest["status"] == "completed").any():
             why = "It peaks where hind and fore leg of the other side follow each other; the cause was not isolated."
