@@ -33,7 +33,7 @@ def limit_claims(limits: pd.DataFrame, needed_mps: tuple[float, float], what: st
     reference = speeds_mps(limits[limits["variant"] == "reference"])
     minimum, median = float(reference.min()), float(reference.median())
     holds = minimum >= needed_mps[0] and median >= needed_mps[1]
-    why = "" if holds else f"Below the {needed_mps[0]:g} / {needed_mps[1]:g} m/s asked of this project."
+    why = "" if holds else f"Below the {needed_mps[0]:g} / {needed_mps[1]:g} m/s aimed at here."
     text = f"largest push survived ({what}), minimum / median J/m [m/s]"
     ours = f"{minimum:.2f} / {median:.2f}, {len(reference)} cases"
     first = Claim(text, "not printed", ours, Verdict.NEW, why)

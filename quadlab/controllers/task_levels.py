@@ -51,7 +51,7 @@ def _validate(value: Any) -> StrictModel:
         return value
     name = value.get("task") if isinstance(value, dict) else None
     known = registered("task")
-    if name not in known:
+    if not isinstance(name, str) or name not in known:
         raise ValueError(f"unknown task {name!r}; known: {', '.join(sorted(known))}")
     config: StrictModel = known[name].Config.model_validate(value)  # type: ignore[attr-defined]
     return config

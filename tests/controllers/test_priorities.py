@@ -101,9 +101,10 @@ def test_every_task_of_the_shipped_levels_can_be_built() -> None:
     assert HierarchicalResolver.Config.model_validate(config.model_dump()) == config
 
 
-def test_unknown_task_is_named_with_the_known_ones() -> None:
-    with pytest.raises(ValidationError, match=r"unknown task 'dance'; known: .*com_position.*torque_limits"):
-        LevelConfig.model_validate({"name": "fun", "tasks": [{"task": "dance"}]})
+@pytest.mark.parametrize("name", ["dance", {"kind": "x"}, ["com_position"], 3])
+def test_unknown_task_is_named_with_the_known_ones(name: object) -> None:
+    with pytest.raises(ValidationError, match=r"unknown task .*; known: .*com_position.*torque_limits"):
+        LevelConfig.model_validate({"name": "fun", "tasks": [{"task": name}]})
 
 
 def test_level_names_must_differ() -> None:
