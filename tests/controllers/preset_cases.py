@@ -17,6 +17,8 @@ from quadlab.trials.compose import compose_trial
 
 PRESETS = tuple(sorted(path.stem for path in (CONF_DIR / "controller").glob("*.yaml")))
 LEVELLED = tuple(name for name in PRESETS if name != "projected_inverse_dynamics")
+FREE_HEIGHT = "bellicoso2016_manipulability"
+"""The one whose base goes up or down by itself instead of staying where it is."""
 
 
 @lru_cache

@@ -20,7 +20,7 @@ NAMES = [f"{script.paper}.{script.name}" for script in SCRIPTS]
 WANTED = {
     *("G-F1", "G-F2", "G-F3", "G-F4", "G-TAB1", "G-F5", "G-F6", "G-F7", "G-F8"),
     *("W-TAB1", "W-F2", "W-F3", "W-F5", "W-X1", "W-X2", "W-X3"),
-    *("B-F4", "B-F56", "X-S1"),
+    *("B-F4", "B-F56", "B-X1", "X-S1"),
 }
 each_script = pytest.mark.parametrize("script", SCRIPTS, ids=NAMES)
 
