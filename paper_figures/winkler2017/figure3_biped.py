@@ -1,4 +1,4 @@
-"""Winkler 2017, Fig. 3: a biped with square feet, its support areas and its CoP."""
+"""Winkler 2017, Fig. 3: a biped with rectangular feet, its support areas, range of motion and CoP."""
 
 import numpy as np
 import pandas as pd
@@ -8,27 +8,32 @@ from scipy.spatial import ConvexHull
 
 from quadlab.analysis.artefact import Artefact, Claim, verdict
 from quadlab.analysis.study_results import StudyResults
-from quadlab.geometry.rotations import Array
+from quadlab.geometry.rotations import Array, rotation_2d
 from quadlab.planners.plan import MotionPlan
 from quadlab.planners.sampling import turned_vertices
-from quadlab.planners.vertex_zmp.biped import SQUARE_FOOT
-from quadlab.plotting.style import COLUMN_WIDTH, COP, GROUND, LEG_COLOURS, MEASURED, paper_style
+from quadlab.planners.vertex_zmp.biped import RECTANGULAR_FOOT, biped_model
+from quadlab.plotting.style import COLUMN_WIDTH, COP, GROUND, LEG_COLOURS, MEASURED, NEUTRAL, paper_style
 
 STUDY = "winkler2017_table1"
-ARTEFACT = Artefact("W-F3", "Winkler 2017, Fig. 3", "A biped with square feet", (STUDY,))
+ARTEFACT = Artefact("W-F3", "Winkler 2017, Fig. 3", "A biped with feet that have an area", (STUDY,))
 FEET = ("left", "right")
 INSIDE_MM = 0.1
+SHOWN_S = 0.7
+"""Time in [s], in the second double support, whose range of motion is drawn; a dot is the CoM then."""
 
 
 @paper_style()
 def draw(results: StudyResults) -> Figure:
     """Return feet, the hulls of both feet in double support, CoM and CoP from above."""
     plan = results.plan(STUDY, "biped")
-    figure = Figure(figsize=(COLUMN_WIDTH, 2.4), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 2.6), layout="constrained")
     axes = figure.subplots()
     for corners in double_supports(plan):
         hull = corners[ConvexHull(corners).vertices]
         axes.add_patch(Polygon(hull, facecolor=GROUND, alpha=0.25, edgecolor="none"))
+    for foot in range(len(FEET)):
+        box, label = reach_box(plan, foot, SHOWN_S), "" if foot else "range of motion"
+        axes.add_patch(Polygon(box, facecolor=NEUTRAL, alpha=0.25, edgecolor="none", label=label))
     for foot, (name, colour) in enumerate(zip(FEET, LEG_COLOURS, strict=False)):
         for number, corners in enumerate(foot_corners(plan, foot)):
             label = name if number == 0 else ""
@@ -36,16 +41,23 @@ def draw(results: StudyResults) -> Figure:
     times = np.arange(0.0, plan.duration_s, 0.01)
     axes.plot(*np.array([plan.com(time)[:2] for time in times]).T, color=MEASURED, label="CoM")
     axes.plot(*np.array([plan.cop(time) for time in times]).T, ".", color=COP, markersize=1.5, label="CoP")
+    axes.plot(*plan.com(SHOWN_S)[:2], "o", color=MEASURED, markersize=4.0)
     axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
-    axes.legend(loc="upper left", ncols=4)
-    axes.margins(y=0.25)
+    figure.legend(loc="outside upper center", ncols=3)
     return figure
+
+
+def reach_box(plan: MotionPlan, foot: int, time_s: float) -> Array:
+    """Return the corners of the box in which a foot may be at ``time_s`` in [s], (4, 2) in [m]."""
+    model, sample = biped_model(RECTANGULAR_FOOT), plan.at(time_s)
+    corners = model.nominal_feet[foot] + model.reach * np.array([[1, 1], [1, -1], [-1, -1], [-1, 1]])
+    return np.asarray(sample.com_position[:2] + corners @ rotation_2d(sample.yaw).T)
 
 
 def foot_corners(plan: MotionPlan, foot: int) -> list[Array]:
     """Return the corners of a foot in each of its stances, (4, 2) in [m]."""
     pairs = zip(plan.footholds[foot], plan.foot_yaws[foot], strict=True)
-    return [place[:2] + turned_vertices(SQUARE_FOOT, yaw) for place, yaw in pairs]
+    return [place[:2] + turned_vertices(RECTANGULAR_FOOT, yaw) for place, yaw in pairs]
 
 
 def double_supports(plan: MotionPlan) -> list[Array]:

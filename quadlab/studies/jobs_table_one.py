@@ -12,7 +12,7 @@ from quadlab.errors import ConfigurationError
 from quadlab.planners.plan_io import save_plan
 from quadlab.planners.planner import PlanningOutcome
 from quadlab.planners.problem import PlanningProblem
-from quadlab.planners.vertex_zmp.biped import SQUARE_FOOT, biped_problem
+from quadlab.planners.vertex_zmp.biped import RECTANGULAR_FOOT, biped_problem
 from quadlab.planners.vertex_zmp.planner import VertexZmpPlanner
 from quadlab.planners.vertex_zmp.table_one import TABLE_ONE, table_one_changes, table_one_problem
 from quadlab.studies.jobs import current_commit, plan_numbers, study_job
@@ -59,7 +59,7 @@ def case_problem(name: str, transcription: str) -> tuple[PlanningProblem, dict[s
         ConfigurationError: if there is none of that name.
     """
     if name == BIPED:
-        return biped_problem(SQUARE_FOOT, BIPED_STEPS, BIPED_GOAL), {"transcription": transcription}
+        return biped_problem(RECTANGULAR_FOOT, BIPED_STEPS, BIPED_GOAL), {"transcription": transcription}
     if name not in CASES:
         raise ConfigurationError(f"case: unknown '{name}'; {suggestion(name, [*CASES, BIPED])}")
     return table_one_problem(CASES[name]), table_one_changes(CASES[name], transcription)

@@ -14,7 +14,7 @@ from quadlab.planners.plan import MotionPlan
 from quadlab.planners.plan_io import bytes_to_plan, plan_to_bytes
 from quadlab.planners.planner import PlanningOutcome, PlanningStatus
 from quadlab.planners.problem import PlanningProblem
-from quadlab.planners.vertex_zmp.biped import LINE_FOOT, SQUARE_FOOT, biped_problem
+from quadlab.planners.vertex_zmp.biped import LINE_FOOT, RECTANGULAR_FOOT, biped_problem
 from quadlab.planners.vertex_zmp.fast.build import build_fast
 from quadlab.planners.vertex_zmp.fast.solve import solve
 from quadlab.planners.vertex_zmp.random_problems import random_problem
@@ -116,7 +116,7 @@ def test_push_recovery(velocity: list[float], status: PlanningStatus, transcript
         assert "constraint sets violated" in outcome.reason
 
 
-@pytest.mark.parametrize("vertices", [SQUARE_FOOT, LINE_FOOT], ids=["square", "line"])
+@pytest.mark.parametrize("vertices", [RECTANGULAR_FOOT, LINE_FOOT], ids=["square", "line"])
 @pytest.mark.parametrize("goal", [[0.4, 0.0, 0.0], [0.3, 0.1, 0.6]], ids=["straight", "turning"])
 def test_biped_with_feet_that_have_length(vertices: Array, goal: list[float]) -> None:
     motion = solved(plan(biped_problem(vertices, 4, np.array(goal)), transcription="paper"))
@@ -128,7 +128,7 @@ def test_biped_with_feet_that_have_length(vertices: Array, goal: list[float]) ->
 
 def test_cop_of_a_biped_leaves_the_points_of_its_feet() -> None:
     """With one point foot in contact the CoP is that point; a square gives it room."""
-    square = solved(plan(biped_problem(SQUARE_FOOT, 2, np.zeros(3)), transcription="paper"))
+    square = solved(plan(biped_problem(RECTANGULAR_FOOT, 2, np.zeros(3)), transcription="paper"))
     point = solved(plan(biped_problem(np.zeros((1, 2)), 2, np.zeros(3))))
     times = np.linspace(0.25, 0.55, 20)  # single support on the right foot
     assert np.ptp([square.cop(t)[1] for t in times]) > 0.003
@@ -137,7 +137,7 @@ def test_cop_of_a_biped_leaves_the_points_of_its_feet() -> None:
 
 def test_feet_with_length_are_refused_by_the_reduced_program_in_one_line() -> None:
     with pytest.raises(PlanningProblemError, match="'fast' knows point feet, the model has feet with 4 vertices"):
-        planner(transcription="fast").build(biped_problem(SQUARE_FOOT, 2, np.zeros(3)))
+        planner(transcription="fast").build(biped_problem(RECTANGULAR_FOOT, 2, np.zeros(3)))
 
 
 @pytest.mark.parametrize("seed", range(40))

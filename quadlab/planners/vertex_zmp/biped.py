@@ -6,7 +6,7 @@ from quadlab.gaits.schedule import ContactSchedule
 from quadlab.geometry.rotations import Array
 from quadlab.planners.problem import PlanningModel, PlanningProblem, PlanStart, Waypoints
 
-SQUARE_FOOT = np.array([[0.10, 0.05], [0.10, -0.05], [-0.10, -0.05], [-0.10, 0.05]])  # [m]
+RECTANGULAR_FOOT = np.array([[0.10, 0.05], [0.10, -0.05], [-0.10, -0.05], [-0.10, 0.05]])  # [m]
 LINE_FOOT = np.array([[0.10, 0.0], [-0.10, 0.0]])  # [m]
 
 
