@@ -2,6 +2,7 @@
 
 import pytest
 
+import quadlab.studies.worker  # noqa: F401 - knows the jobs of all studies
 from quadlab.errors import ConfigurationError
 from quadlab.studies.condition import Condition, conditions
 from quadlab.studies.config import SearchConfig, StudyConfig, load_study, study_names
