@@ -7,11 +7,9 @@ from matplotlib.figure import Figure
 
 from paper_figures.trial_claims import survival
 from quadlab.analysis.artefact import Artefact, Claim, Verdict, verdict
-from quadlab.analysis.manipulability import mean_manipulability
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import COLUMN_WIDTH, NEUTRAL, SERIES, paper_style
 from quadlab.robots.catalogue import robot_config
-from quadlab.robots.model import load_robot
 
 STUDY = "bellicoso2016_manipulability"
 ARTEFACT = Artefact("B-X1", "Bellicoso 2016, Eq. 22-24", "Body height emerging from manipulability", (STUDY,))
@@ -57,6 +55,9 @@ def numbers(results: StudyResults) -> pd.DataFrame:
 
 
 def _curves(results: StudyResults, name: str) -> pd.DataFrame:
+    from quadlab.analysis.manipulability import mean_manipulability  # noqa: PLC0415 - loads the robot's physics
+    from quadlab.robots.model import load_robot  # noqa: PLC0415
+
     trace = results.trace(STUDY, name)
     return pd.DataFrame(
         {
