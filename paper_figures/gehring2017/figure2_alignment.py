@@ -16,7 +16,7 @@ from quadlab.controllers.tracking.alignment import (
 )
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan
-from quadlab.plotting.style import MEASURED, SERIES, TEXT_WIDTH, paper_style
+from quadlab.plotting.style import MEASURED, NEUTRAL, SERIES, TEXT_WIDTH, paper_style
 from quadlab.robots.legs import LEGS
 
 STUDY = "gehring2017_walk_push"
@@ -48,18 +48,21 @@ class Moment:
 
 @paper_style()
 def draw(results: StudyResults) -> Figure:
-    """Return one panel a way of alignment: the measured feet and CoM in black, the plan in colour."""
+    """Return one panel a way of alignment: measured feet and CoM in black, the plan in the colour of how it is laid."""
     now = moment(results)
     figure = Figure(figsize=(TEXT_WIDTH, 2.0), layout="constrained")
     ways = now.alignments()
     panels = figure.subplots(1, len(ways) + 1, sharex=True, sharey=True)
-    for axes, (name, colour) in zip(panels, zip([*ways, "mixed"], SERIES[1:] * 2, strict=False), strict=True):
-        torso, swing = (ways["feet-centred"], ways["base-centred"]) if name == "mixed" else (ways[name], ways[name])
-        feet = np.array([swing.position(foot) for foot in now.planned_feet])
+    colours = dict(zip(ways, (NEUTRAL, *SERIES[2:]), strict=True))
+    for axes, name in zip(panels, [*ways, "mixed"], strict=True):
+        torso, swing = ("feet-centred", "base-centred") if name == "mixed" else (name, name)
+        feet = np.array([ways[swing].position(foot) for foot in now.planned_feet])
         axes.plot(*now.feet.T, "o", color=MEASURED, markersize=5.0, fillstyle="none", label="measured foot")
         axes.plot(*now.com, "P", color=MEASURED, markersize=5.0, label="measured CoM")
-        axes.plot(*feet.T, "o", color=colour, markersize=2.5, label="planned foot")
-        axes.plot(*torso.position(now.planned_com), "X", color=colour, markersize=5.0, label="planned CoM")
+        axes.plot(*feet.T, "o", color=colours[swing], markersize=2.5, label="planned foot")
+        axes.plot(
+            *ways[torso].position(now.planned_com), "X", color=colours[torso], markersize=5.0, label="planned CoM"
+        )
         axes.set_title(name, loc="left")
         axes.set(xlabel="x [m]", aspect="equal")
     panels[0].set_ylabel("y [m]")

@@ -5,16 +5,19 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from paper_figures.push_limits import PUSH_S, limit_claims
 from paper_figures.trial_claims import survival, variant_claims
 from quadlab.analysis.artefact import Artefact, Claim, verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.geometry.rotations import Array
 from quadlab.plotting.style import COLUMN_WIDTH, MEASURED, PUSH, REFERENCE, paper_style
 
-STUDY = "gehring2017_turning_trot"
-ARTEFACT = Artefact("G-F7", "Gehring 2017, Fig. 7", "Turning trot that is pushed", (STUDY,))
+STUDY, LIMITS = "gehring2017_turning_trot", "gehring2017_trot_pushes"
+ARTEFACT = Artefact("G-F7", "Gehring 2017, Fig. 7", "Turning trot that is pushed", (STUDY, LIMITS))
 TRACES = ("pushed", "pushed_1", "pushed_2", "pushed_truth", "not_pushed")
 YAW_BOUND_DEG = 2.5
+NEEDED_MPS = (0.6, 1.2)
+"""Smallest and median change of velocity that counts as good for a trot straight on."""
 DEGREES_A_STRIDE = 20.0
 VARIANTS = {
     "alignment none": "without alignment of the plan",
@@ -73,7 +76,7 @@ def _angles_deg(trace: pd.DataFrame) -> tuple[Array, Array]:
 
 
 def claims(results: StudyResults) -> list[Claim]:
-    """Return that it stays up, keeps turning, and what holds it up."""
+    """Return that it stays up, keeps turning, what holds it up, and the largest pushes of a trot."""
     table, curves = results.table(STUDY), numbers(results)
     reference = table[table["variant"] == "reference"]
     errors = {
@@ -101,6 +104,7 @@ def claims(results: StudyResults) -> list[Claim]:
             "Off the plan as it is aligned; off the place that was planned before the pushes, the robot stays.",
         ),
         *variant_claims(table, "variant", VARIANTS),
+        *limit_claims(results.limits(LIMITS), NEEDED_MPS, f"trot straight on, {PUSH_S} s, ekf"),
     ]
 
 

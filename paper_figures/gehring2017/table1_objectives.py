@@ -50,7 +50,8 @@ def draw(results: StudyResults) -> Figure:
 
 def _cells(table: pd.DataFrame, objective: str, motion: str) -> tuple[str, str]:
     row = table[(table["objective"] == objective) & (table["motion"] == motion)].iloc[0]
-    return f"{row['cost']:.3f}", f"{row['paper']:.3g}"
+    printed = float(row["paper"])
+    return f"{row['cost']:.3f}", f"{printed:.2f}" if round(printed, 2) == printed else f"{printed:.3f}"
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:
