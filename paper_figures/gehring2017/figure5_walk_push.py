@@ -1,5 +1,6 @@
 """Gehring 2017, Fig. 5: a lateral walk that is pushed sideways, from above and over time."""
 
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -8,8 +9,10 @@ from paper_figures.push_limits import PUSH_S, limit_claims
 from paper_figures.trial_claims import survival
 from quadlab.analysis.artefact import Artefact, Claim, verdict
 from quadlab.analysis.study_results import StudyResults
+from quadlab.geometry.rotations import Array
+from quadlab.planners.plan import MotionPlan
 from quadlab.plotting.intervals import intervals_where
-from quadlab.plotting.style import LEG_COLOURS, MEASURED, PUSH, REFERENCE, TEXT_WIDTH, paper_style
+from quadlab.plotting.style import LEG_COLOURS, MEASURED, NEUTRAL, PUSH, REFERENCE, TEXT_WIDTH, paper_style
 from quadlab.robots.legs import LEGS
 
 STUDY, LIMITS = "gehring2017_walk_push", "gehring2017_walk_pushes"
@@ -20,11 +23,12 @@ NEEDED_MPS = (0.6, 1.0)
 
 @paper_style()
 def draw(results: StudyResults) -> Figure:
-    """Return (a) footprints and CoM from above and (b) y of the CoM with its reference over time."""
+    """Return (a) footprints and CoM from above and (b) y of the CoM with its reference and the plan over time."""
     trace = results.trace(STUDY, "push")
     figure = Figure(figsize=(TEXT_WIDTH, 2.6), layout="constrained")
     above, over_time = figure.subplots(1, 2)
     _draw_from_above(above, trace)
+    over_time.plot(trace.index, planned_y(results.plan(STUDY, "push"), trace), ":", color=NEUTRAL, label="plan")
     over_time.plot(trace.index, trace["control.com_reference_y"], color=REFERENCE, linewidth=2.0, label="desired")
     over_time.plot(trace.index, trace["control.com_y"], "--", color=MEASURED, label="measured")
     pushed = (trace["state.push_force_y"] != 0.0).to_numpy()
@@ -33,7 +37,7 @@ def draw(results: StudyResults) -> Figure:
     over_time.set(xlabel="time [s]", ylabel="CoM y [m]")
     over_time.set_title("(b) the reference adapts to the push", loc="left")
     over_time.margins(y=0.16)  # room for the legend below the curves
-    over_time.legend(loc="lower right", ncols=3)
+    over_time.legend(loc="lower right", ncols=4)
     return figure
 
 
@@ -57,6 +61,14 @@ def footprints(trace: pd.DataFrame, leg: str) -> pd.DataFrame:
     return pd.DataFrame({"x_m": means.iloc[:, 0].to_numpy(), "y_m": means.iloc[:, 1].to_numpy()})
 
 
+def planned_y(plan: MotionPlan, trace: pd.DataFrame) -> Array:
+    """Return y of the CoM in the plan as it was made, in [m], at the times of ``trace``.
+
+    The clock of a plan waits for feet that land late, which is not counted here: compare before and long after a push.
+    """
+    return np.array([plan.com(float(time_s))[1] for time_s in trace.index])
+
+
 def numbers(results: StudyResults) -> pd.DataFrame:
     """Return the CoM, its reference and the push over time."""
     trace = results.trace(STUDY, "push")
@@ -69,8 +81,8 @@ def claims(results: StudyResults) -> list[Claim]:
     table, trace = results.table(STUDY), results.trace(STUDY, "push")
     refused = "A plan from a perturbed start that the checker refuses by a fraction of a millimetre is a failure here."
     pushed = trace.index[(trace["state.push_force_y"] != 0.0).to_numpy()]
-    before, after = trace.loc[: pushed[0]].iloc[-1], trace.iloc[-1]
-    moved_mm = 1e3 * (after["control.com_reference_y"] - before["control.com_reference_y"])
+    off_mm = 1e3 * (trace["control.com_reference_y"] - planned_y(results.plan(STUDY, "push"), trace))
+    moved_mm = float(off_mm.iloc[-1] - off_mm.loc[: pushed[0]].iloc[-1])
     lost = any("LH lost contact" in message for message in results.events(STUDY, "push")["message"])
     return [
         *(
@@ -85,7 +97,7 @@ def claims(results: StudyResults) -> list[Claim]:
             "" if lost else "The controller keeps the foot loaded at this force.",
         ),
         Claim(
-            "the reference in y adapts",
+            "the reference in y adapts: moved off the plan as it was made",
             "adapts",
             f"by {abs(moved_mm):.0f} mm to the {'left' if moved_mm > 0.0 else 'right'}",
             verdict(holds=abs(moved_mm) > 10.0),
