@@ -117,7 +117,8 @@ def test_trial_that_fails_is_exit_code_1_and_the_others_have_results(
 
 
 def test_interrupt_ends_the_sweep_with_130(tmp_path: Path) -> None:
-    command = [sys.executable, "-c", ENTRY, "-m", *STANDING, "duration_s=100", "seed=0,1"]
+    heeds = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "  # a background job ignores it
+    command = [sys.executable, "-c", heeds + ENTRY, "-m", *STANDING, "duration_s=100", "seed=0,1"]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 120.0
     while len(list(tmp_path.rglob("trial.mcap.part"))) < 2 and time.monotonic() < deadline:

@@ -147,12 +147,13 @@ def test_what_a_late_job_started_is_killed_too(tmp_path: Path) -> None:
 
 
 OWNER = """
-import sys
+import signal, sys
 from pathlib import Path
 import pool_jobs
 from quadlab.sweeps.job import Job
 from quadlab.sweeps.limits import PoolConfig
 from quadlab.sweeps.pool import run_pool
+signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever started the tests may ignore it
 config = PoolConfig(workers=2, memory_limit_gib=None, time_limit_s=None)
 try:
     list(run_pool([Job("", pool_jobs.note_pid, (Path(sys.argv[1]),))] * 2, config))
