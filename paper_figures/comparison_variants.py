@@ -9,8 +9,6 @@ CONTROLLERS = ("weighted", "hierarchical")
 FACTORS = {"planner": PLANNERS, "controller": CONTROLLERS}
 COLOURS = {"kinematic_sqp": "#0072b2", "vertex_zmp": "#d55e00"}
 DASHES = {"hierarchical": "-", "weighted": "--"}
-PUSH_S = 0.15  # [s] of every push
-ANYMAL_KG = 30.475  # [kg]
 
 
 def artefact(part: str, title: str) -> Artefact:

@@ -2,6 +2,7 @@
 
 import pandas as pd
 
+from paper_figures.trial_claims import VARIANTS
 from quadlab.analysis.artefact import Claim, Verdict
 
 PUSH_S = 0.15
@@ -10,13 +11,6 @@ ANYMAL_KG = 30.475
 """Mass of ANYmal B in [kg]."""
 CASE = ["direction", "scenario.pushes.0.start_s"]
 """Columns that tell apart the pushes of a variant."""
-VARIANTS = {
-    "alignment none": "without alignment of the plan",
-    "alignment base": "base-centred alignment alone",
-    "alignment feet": "feet-centred alignment alone",
-    "no foothold feedback": "without foothold feedback",
-    "stack of the paper": "priorities of the paper",
-}
 
 
 def speeds_mps(limits: pd.DataFrame) -> "pd.Series[float]":

@@ -8,6 +8,14 @@ from quadlab.studies.report import success_share
 COMPLETED = "completed"
 SILENT = ("-", "not printed", "not measured")
 """What stands in place of the paper's value where it has none."""
+VARIANTS = {
+    "alignment none": "without alignment of the plan",
+    "alignment base": "with base-centred alignment alone",
+    "alignment feet": "with feet-centred alignment alone",
+    "no foothold feedback": "without foothold feedback",
+    "stack of the paper": "with the priorities of the paper",
+}
+"""Levels of the factor ``variant`` beside "reference": one part of the controller changed."""
 
 
 def judged(paper: str, *, holds: bool, partly: bool = False) -> Verdict:

@@ -3,7 +3,7 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
-from paper_figures.comparison_variants import ANYMAL_KG, PUSH_S
+from paper_figures.push_limits import speeds_mps
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import COLUMN_WIDTH, NEUTRAL, SERIES, paper_style
@@ -35,7 +35,7 @@ def draw(results: StudyResults) -> Figure:
 
 def _speeds(results: StudyResults) -> pd.DataFrame:
     limits = results.limits(STUDY)
-    return limits.assign(mps=limits["limit"].fillna(0.0) * PUSH_S / ANYMAL_KG)
+    return limits.assign(mps=speeds_mps(limits))
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:

@@ -5,7 +5,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 
-from paper_figures.comparison_variants import ANYMAL_KG, COLOURS, CONTROLLERS, DASHES, PLANNERS, PUSH_S, STUDY, artefact
+from paper_figures.comparison_variants import COLOURS, CONTROLLERS, DASHES, PLANNERS, STUDY, artefact
+from paper_figures.push_limits import speeds_mps
 from quadlab.analysis.artefact import Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import TEXT_WIDTH, paper_style
@@ -51,9 +52,7 @@ def numbers(results: StudyResults) -> pd.DataFrame:
     """Return the median over the phases of the stride, one row a gait, planner, controller and direction."""
     limits = results.limits(STUDY)
     pushes = limits[limits["disturbance"] == "push"]
-    speeds = pushes.assign(
-        direction_deg=pushes["direction"].astype(float), mps=pushes["limit"].fillna(0.0) * PUSH_S / ANYMAL_KG
-    )
+    speeds = pushes.assign(direction_deg=pushes["direction"].astype(float), mps=speeds_mps(pushes))
     groups = speeds.groupby(["gait", "planner", "controller", "direction_deg"])["mps"]
     return groups.agg(median_mps="median", minimum_mps="min", cases="count").reset_index()
 

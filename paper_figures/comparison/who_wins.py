@@ -8,7 +8,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from paper_figures.comparison_variants import ANYMAL_KG, FACTORS, PUSH_S, STUDY, artefact
+from paper_figures.comparison_variants import FACTORS, STUDY, artefact
+from paper_figures.push_limits import ANYMAL_KG, PUSH_S
 from quadlab.analysis.artefact import Claim, Verdict
 from quadlab.analysis.paired import mean_difference, share_difference
 from quadlab.analysis.statistics import Interval

@@ -21,6 +21,7 @@ from quadlab.robots.legs import LEGS
 
 STUDY = "gehring2017_walk_push"
 ARTEFACT = Artefact("G-F2", "Gehring 2017, Fig. 2", "Alignment of a plan with a robot that was pushed", (STUDY,))
+BY_DEFINITION = "That is how this alignment is defined; the picture is what is new."
 AFTER_PUSH_S = 0.25
 """Time of the picture after the end of the push."""
 
@@ -108,7 +109,7 @@ def claims(results: StudyResults) -> list[Claim]:
     off = float(table["com_off_mm"].loc["unaligned"])
     return [
         Claim("base-centred: planned and measured base coincide", "yes", f"{base:.2g} mm apart, {off:.0f} mm unaligned",
-              verdict(holds=base < 0.1)),
+              verdict(holds=base < 0.1), BY_DEFINITION),
         Claim("feet-centred: means of planned and measured feet coincide", "yes", f"{feet:.2g} mm apart",
-              verdict(holds=feet < 0.1)),
+              verdict(holds=feet < 0.1), BY_DEFINITION),
     ]  # fmt: skip

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from paper_figures.trial_claims import survival
+from paper_figures.trial_claims import VARIANTS, survival
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import COLUMN_WIDTH, GROUND, LEG_COLOURS, MEASURED, REFERENCE, paper_style
@@ -17,13 +17,6 @@ LEG_LENGTH_M = 0.564
 """Thigh and shank of ANYmal B."""
 NEEDED = {0.08: 10, 0.10: 8}
 """How many of ten places count as good, by height in [m]."""
-VARIANTS = {
-    "alignment none": "without alignment of the plan",
-    "alignment base": "with base-centred alignment alone",
-    "alignment feet": "with feet-centred alignment alone",
-    "no foothold feedback": "without foothold feedback",
-    "stack of the paper": "with the priorities of the paper",
-}
 
 
 @paper_style()

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from paper_figures.push_limits import PUSH_S, limit_claims
-from paper_figures.trial_claims import survival, variant_claims
+from paper_figures.trial_claims import VARIANTS, survival, variant_claims
 from quadlab.analysis.artefact import Artefact, Claim, verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.geometry.rotations import Array
@@ -19,13 +19,6 @@ YAW_BOUND_DEG = 2.5
 NEEDED_MPS = (0.6, 1.2)
 """Smallest and median change of velocity that counts as good for a trot straight on."""
 DEGREES_A_STRIDE = 20.0
-VARIANTS = {
-    "alignment none": "without alignment of the plan",
-    "alignment base": "with base-centred alignment alone",
-    "alignment feet": "with feet-centred alignment alone",
-    "no foothold feedback": "without foothold feedback",
-    "stack of the paper": "with the priorities of the paper",
-}
 
 
 @paper_style()

@@ -13,7 +13,7 @@ STUDY = "winkler2017_motions"
 ARTEFACT = Artefact("W-X3", "Winkler 2017, video", "Limp, transitions, pace, bound and pushes", (STUDY,))
 FOLLOWED_MM = 100.0
 """Farther off the plan than that, a robot that stays up has stumbled."""
-STUMBLES = "It stumbles out of the plan, which is made for a point mass that can neither pitch nor roll."
+STUMBLES = "It stumbles out of the plan and stays up; why was not diagnosed."
 TRACKED = ("hierarchical", "projected_inverse_dynamics")
 
 

@@ -76,6 +76,6 @@ def _times(table: pd.DataFrame, name: str, column: str, why: str) -> Claim:
     ratio = table["solve_s_printed"] / table[column]
     faster = int((ratio >= 1.0).sum())
     text = f"solve time of the paper / ours, {name}"
-    ours = f"{ratio.min():.2g} to {ratio.max():.2g}, faster in {faster} of {len(ratio)}"
+    ours = f"{ratio.min():.3g} to {ratio.max():.3g}, faster in {faster} of {len(ratio)}"
     holds = faster == len(ratio)
     return Claim(text, "1", ours, verdict(holds=holds, partly=faster > 0), "" if holds else why)

@@ -64,7 +64,7 @@ def claims(results: StudyResults) -> list[Claim]:
         )
         rest = rows[rows["start"] == "nominal"]
         if (rest["status"] == "completed").any():
-            why = "It peaks where hind and fore leg of the other side follow each other; the cause was not isolated."
+            why = "The cause was not isolated."
             text = f"CoM error from the nominal start: {name}"
             found.append(at_most(text, rest, "com_error_max_mm", COM_BOUND_MM, "mm", paper="not printed", why=why))
     return found

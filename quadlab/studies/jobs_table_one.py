@@ -30,8 +30,14 @@ CASES = {case.name: case for case in TABLE_ONE}
 
 @study_job("table_one")
 def table_one_row(overrides: Sequence[str], folder: Path) -> Row:
-    """Plan ``case=<column of Table I, or biped>`` in ``transcription=fast|paper``; return sizes and times as a row."""
-    options = dict(override.split("=", 1) for override in overrides)
+    """Plan ``case=<column of Table I, or biped>`` in ``transcription=fast|paper``; return sizes and times as a row.
+
+    Raises:
+        ConfigurationError: if it is told anything else.
+    """
+    options = dict(override.partition("=")[::2] for override in overrides)
+    if set(options) != {"case", "transcription"}:
+        raise ConfigurationError(f"job table_one: expected case=... and transcription=..., got {list(overrides)}")
     problem, changes = case_problem(options["case"], options["transcription"])
     composed: Any = compose_trial(["planner=vertex_zmp"]).planner
     settings = composed.model_dump()

@@ -27,3 +27,8 @@ def test_biped_has_feet_that_turn(tmp_path: Path) -> None:
 def test_unknown_case_is_one_line(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="unknown 'trott 4'; did you mean 'trot 4'"):
         table_one_row(["case=trott 4", "transcription=fast"], tmp_path)
+
+
+def test_missing_option_is_one_line(tmp_path: Path) -> None:
+    with pytest.raises(ConfigurationError, match=r"expected case=... and transcription=..., got \['case=trot 4'\]"):
+        table_one_row(["case=trot 4"], tmp_path)
