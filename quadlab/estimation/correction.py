@@ -9,7 +9,9 @@ from quadlab.estimation.error_state import ERROR_SIZE, FEET, POSITION, FilterSta
 from quadlab.estimation.leg_kinematics import LegKinematics
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 from quadlab.robots.legs import LEG_COUNT
+from quadlab.robots.pinocchio_model import IndexArray
 
 
 class LegMeasurementConfig(StrictModel):
@@ -50,25 +52,20 @@ def foot_innovations(
 ) -> FootInnovations:
     """Return e_i = R s_i - (p_i - r) for the measured foot s_i in base axes (Bloesch 2012, II-D, in world axes).
 
-    To first order e_i = dp_i - dr + R n_i with the noise n_i of covariance J_i J_i^T sigma_q^2 + sigma_s^2 I.
+    To first order e_i = dp_i - dr + R n_i with the noise n_i of covariance J_i J_i^T sigma_q^2 + sigma_s^2 I: the
+    measurement's Jacobian H does not depend on the state.
     """
-    rotation = state.rotation
-    values = legs.foot_centers @ rotation.T - state.feet_from_base
-    jacobians = rotation @ legs.jacobians
-    noise = config.encoder_rad**2 * jacobians @ jacobians.transpose(0, 2, 1) + config.kinematics_m**2 * np.eye(3)
-    spread = noise + _relative_covariances(covariance)
-    distances = np.einsum("li,li->l", values, np.linalg.solve(spread, values[:, :, None])[:, :, 0])
-    return FootInnovations(values, noise, distances)
-
-
-def measurement_jacobian(feet: list[int]) -> Array:
-    """Return H with e = H d for the innovations of ``feet``, (3 n, 27); it does not depend on the state."""
-    jacobian = np.zeros((3 * len(feet), ERROR_SIZE))
-    for row, leg in enumerate(feet):
-        rows = slice(3 * row, 3 * row + 3)
-        jacobian[rows, POSITION] = -np.eye(3)
-        jacobian[rows, foot_block(leg)] = np.eye(3)
-    return jacobian
+    return FootInnovations(
+        *_foot_innovations(
+            state.rotation,
+            state.feet_from_base,
+            legs.foot_centers,
+            legs.jacobians,
+            covariance,
+            config.encoder_rad**2,
+            config.kinematics_m**2,
+        )
+    )
 
 
 @dataclass(frozen=True)
@@ -90,20 +87,10 @@ def correct(state: FilterState, covariance: Array, innovations: FootInnovations,
 
     The covariance is updated in Joseph's form, P+ = (I - K H) P (I - K H)^T + K N K^T, and made symmetric.
     """
-    chosen = np.flatnonzero(feet).tolist()
-    if not chosen:
+    if not feet.any():
         return Correction(state, covariance)
-    jacobian = _JACOBIANS[tuple(chosen)]
-    noise = np.zeros((3 * len(chosen), 3 * len(chosen)))
-    for row, leg in enumerate(chosen):
-        noise[3 * row : 3 * row + 3, 3 * row : 3 * row + 3] = innovations.noise[leg]
-    crossed = jacobian @ covariance
-    values = innovations.values[chosen].ravel()
-    solved = np.linalg.solve(crossed @ jacobian.T + noise, np.column_stack([crossed, values]))
-    gain = solved[:, :-1].T
-    left = _EYE - gain @ jacobian
-    joseph = left @ covariance @ left.T + gain @ noise @ gain.T
-    return Correction(box_plus(state, gain @ values), 0.5 * (joseph + joseph.T), float(values @ solved[:, -1]))
+    error, corrected, squared = _correct(covariance, innovations.values, innovations.noise, np.flatnonzero(feet))
+    return Correction(box_plus(state, error), corrected, squared)
 
 
 def place_foot(
@@ -130,17 +117,53 @@ def place_foot(
     return moved, placed
 
 
-def _relative_covariances(covariance: Array) -> Array:
-    """Return the covariance of dp_i - dr of each foot, (4, 3, 3) in [m^2]."""
-    base = covariance[POSITION, POSITION]
-    cross = covariance[FEET, POSITION].reshape(LEG_COUNT, 3, 3)
-    own = np.einsum("iaib->iab", covariance[FEET, FEET].reshape(LEG_COUNT, 3, LEG_COUNT, 3))
-    relative: Array = own + base - cross - cross.transpose(0, 2, 1)
-    return relative
+@compiled_entry
+def _foot_innovations(
+    rotation: Array,
+    feet_from_base: Array,
+    foot_centers: Array,
+    jacobians: Array,
+    covariance: Array,
+    encoder_variance: float,
+    kinematics_variance: float,
+) -> tuple[Array, Array, Array]:
+    """Return values (4, 3), noise (4, 3, 3) and distances (4,) of ``foot_innovations``; variances in [rad^2], [m^2]."""
+    values, noise = np.empty((LEG_COUNT, 3)), np.empty((LEG_COUNT, 3, 3))
+    distances = np.empty(LEG_COUNT)
+    for leg in range(LEG_COUNT):
+        values[leg] = rotation @ foot_centers[leg] - feet_from_base[leg]
+        jacobian = rotation @ jacobians[leg]
+        noise[leg] = encoder_variance * (jacobian @ jacobian.T) + kinematics_variance * np.eye(3)
+        foot = _FEET + 3 * leg
+        crossed = covariance[foot : foot + 3] - covariance[:3]
+        spread = noise[leg] + crossed[:, foot : foot + 3] - crossed[:, :3]
+        distances[leg] = values[leg] @ np.linalg.solve(spread, values[leg])
+    return values, noise, distances
 
 
-_EYE = np.eye(ERROR_SIZE)
-_JACOBIANS = {
-    tuple(feet): measurement_jacobian(feet)
-    for feet in ([leg for leg in range(LEG_COUNT) if flags >> leg & 1] for flags in range(1, 1 << LEG_COUNT))
-}
+@compiled_entry
+def _correct(covariance: Array, values: Array, noise: Array, feet: IndexArray) -> tuple[Array, Array, float]:
+    """Return the error (27,), the covariance (27, 27) and e^T S^-1 e of ``correct`` for the numbers of the ``feet``."""
+    size = 3 * len(feet)
+    crossed, spread, innovation = np.empty((size, ERROR_SIZE)), np.zeros((size, size)), np.empty(size)
+    for row, leg in enumerate(feet):
+        rows, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
+        innovation[rows] = values[leg]
+        spread[rows, rows] = noise[leg]
+        crossed[rows] = covariance[foot : foot + 3] - covariance[:3]
+    spread_of_noise = spread.copy()
+    for row, leg in enumerate(feet):
+        columns, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
+        spread[:, columns] += crossed[:, foot : foot + 3] - crossed[:, :3]
+    gain = np.linalg.solve(spread, crossed).T.copy()
+    left = np.eye(ERROR_SIZE)
+    for row, leg in enumerate(feet):
+        columns, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
+        left[:, :3] += gain[:, columns]
+        left[:, foot : foot + 3] -= gain[:, columns]
+    joseph = left @ covariance @ left.T + gain @ spread_of_noise @ gain.T
+    squared = float(innovation @ np.linalg.solve(spread, innovation))
+    return gain @ innovation, 0.5 * (joseph + joseph.T), squared
+
+
+_FEET = FEET.start

@@ -13,19 +13,22 @@ from quadlab.estimation.error_state import (
     FEET,
     GYRO_BIAS,
     ORIENTATION,
-    POSITION,
     VELOCITY,
     FilterState,
 )
+from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array, skew
+from quadlab.jit import compiled_entry, inlined
 from quadlab.planners.problem import GRAVITY
+from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.sensing import SensorReading
 
 _UP = np.array([0.0, 0.0, 1.0])
 _GRAVITY = -GRAVITY * _UP
-_CROSS_GRAVITY, _CROSS_UP = skew(_GRAVITY), skew(_UP)
-_EYE = np.eye(3)
-_CROSS_BASIS = np.stack([skew(axis).ravel() for axis in _EYE])
+_CROSS_UP = skew(_UP)
+_VELOCITY, _ORIENTATION, _FEET = VELOCITY.start, ORIENTATION.start, FEET.start
+_ACCELEROMETER, _GYRO = ACCELEROMETER_BIAS.start, GYRO_BIAS.start
+"""First rows of the blocks of the error, as compiled functions take them."""
 
 
 class ProcessNoiseConfig(StrictModel):
@@ -118,24 +121,19 @@ def error_dynamics(predicted: FilterState, step: InertialStep, foot_radius: floa
 
     where u_i = T Omega_i x rho e_z; terms of T^2 rho are left out.
     """
-    period_s, rotation = step.period_s, step.mean_rotation
-    jacobian = np.eye(ERROR_SIZE)
-    jacobian[POSITION, VELOCITY] = period_s * _EYE
-    jacobian[VELOCITY, ORIENTATION] = period_s * _CROSS_GRAVITY
-    jacobian[POSITION, ORIENTATION] = 0.5 * period_s**2 * _CROSS_GRAVITY
-    jacobian[VELOCITY, ACCELEROMETER_BIAS] = -period_s * rotation
-    jacobian[POSITION, ACCELEROMETER_BIAS] = -0.5 * period_s**2 * rotation
-    turn = -period_s * rotation
-    jacobian[ORIENTATION, GYRO_BIAS] = turn
-    lever = 0.5 * period_s * step.specific_force_in_world
-    levers = _cross_matrices(np.stack([predicted.velocity - lever, predicted.position - 0.5 * period_s * lever]))
-    jacobian[VELOCITY, GYRO_BIAS] = levers[0] @ turn
-    jacobian[POSITION, GYRO_BIAS] = levers[1] @ turn
-    _fill_feet(jacobian, predicted, step, foot_radius, turn)
-    return jacobian
+    return _error_dynamics(
+        step.period_s,
+        step.mean_rotation,
+        step.specific_force_in_world,
+        step.foot_angular_velocities_in_world,
+        foot_radius,
+        predicted.position,
+        predicted.velocity,
+        predicted.feet,
+    )
 
 
-def process_noise(dynamics: Array, config: ProcessNoiseConfig, standing: Array, period_s: float) -> Array:
+def process_noise(dynamics: Array, config: ProcessNoiseConfig, standing: BoolArray, period_s: float) -> Array:
     """Return the covariance Q, (27, 27), of the error that one period adds.
 
     The noise of gyroscope and accelerometer enters where their biases do. Q is the first-order discretisation of
@@ -147,17 +145,16 @@ def process_noise(dynamics: Array, config: ProcessNoiseConfig, standing: Array, 
         standing: feet whose slip counts, (4,).
         period_s: in [s].
     """
-    inputs = dynamics[:, ACCELEROMETER_BIAS.start : GYRO_BIAS.stop].copy()
-    inputs[ACCELEROMETER_BIAS.start :] = 0.0
-    root_s = math.sqrt(period_s)
-    inputs[:, :3] *= config.accelerometer_mps2_per_sqrt_hz / root_s
-    inputs[:, 3:] *= config.gyro_radps_per_sqrt_hz / root_s
-    noise: Array = inputs @ inputs.T
-    diagonal = np.einsum("ii->i", noise)
-    diagonal[FEET] += np.repeat(period_s * config.foot_mps_per_sqrt_hz**2 * standing, 3)
-    diagonal[ACCELEROMETER_BIAS] += period_s * config.accelerometer_bias_mps3_per_sqrt_hz**2
-    diagonal[GYRO_BIAS] += period_s * config.gyro_bias_radps2_per_sqrt_hz**2
-    return noise
+    return _process_noise(
+        dynamics,
+        standing,
+        period_s,
+        config.accelerometer_mps2_per_sqrt_hz,
+        config.gyro_radps_per_sqrt_hz,
+        config.foot_mps_per_sqrt_hz,
+        config.accelerometer_bias_mps3_per_sqrt_hz,
+        config.gyro_bias_radps2_per_sqrt_hz,
+    )
 
 
 def _rolling(step: InertialStep, foot_radius: float) -> Array:
@@ -166,14 +163,72 @@ def _rolling(step: InertialStep, foot_radius: float) -> Array:
     return way
 
 
-def _fill_feet(jacobian: Array, predicted: FilterState, step: InertialStep, foot_radius: float, turn: Array) -> None:
-    rolled = step.period_s * foot_radius * _CROSS_UP
-    ways = _cross_matrices(_rolling(step, foot_radius))
-    spins = _cross_matrices(step.foot_angular_velocities_in_world)
-    jacobian[FEET, ORIENTATION] = (rolled @ spins + ways).reshape(-1, 3)
-    jacobian[FEET, GYRO_BIAS] = ((_cross_matrices(predicted.feet) - foot_radius * _CROSS_UP) @ turn).reshape(-1, 3)
+@inlined
+def _cross(vector: Array) -> Array:
+    """Return the matrix S, (3, 3), with S b = vector x b."""
+    matrix = np.zeros((3, 3))
+    matrix[0, 1], matrix[0, 2] = -vector[2], vector[1]
+    matrix[1, 0], matrix[1, 2] = vector[2], -vector[0]
+    matrix[2, 0], matrix[2, 1] = -vector[1], vector[0]
+    return matrix
 
 
-def _cross_matrices(vectors: Array) -> Array:
-    """Return the matrices S_i with S_i b = v_i x b for ``vectors``, (n, 3), as (n, 3, 3)."""
-    return (vectors @ _CROSS_BASIS).reshape(-1, 3, 3)
+@compiled_entry
+def _error_dynamics(
+    period_s: float,
+    rotation: Array,
+    specific_force: Array,
+    foot_spins: Array,
+    foot_radius: float,
+    position: Array,
+    velocity: Array,
+    feet: Array,
+) -> Array:
+    """Return F of ``error_dynamics``; ``foot_spins`` are the angular velocities Omega_i of the feet."""
+    jacobian = np.eye(ERROR_SIZE)
+    for axis in range(3):
+        jacobian[axis, _VELOCITY + axis] = period_s
+    cross_gravity, cross_up = _cross(_GRAVITY), _cross(_UP)
+    jacobian[_VELOCITY : _VELOCITY + 3, _ORIENTATION : _ORIENTATION + 3] = period_s * cross_gravity
+    jacobian[:3, _ORIENTATION : _ORIENTATION + 3] = 0.5 * period_s**2 * cross_gravity
+    turn = -period_s * rotation
+    jacobian[_VELOCITY : _VELOCITY + 3, _ACCELEROMETER : _ACCELEROMETER + 3] = turn
+    jacobian[:3, _ACCELEROMETER : _ACCELEROMETER + 3] = 0.5 * period_s * turn
+    jacobian[_ORIENTATION : _ORIENTATION + 3, _GYRO:] = turn
+    lever = 0.5 * period_s * specific_force
+    jacobian[_VELOCITY : _VELOCITY + 3, _GYRO:] = _cross(velocity - lever) @ turn
+    jacobian[:3, _GYRO:] = _cross(position - 0.5 * period_s * lever) @ turn
+    rolled = period_s * foot_radius * cross_up
+    for leg in range(LEG_COUNT):
+        first = _FEET + 3 * leg
+        way = rolled @ _cross(foot_spins[leg])
+        way -= _cross(rolled @ foot_spins[leg])
+        jacobian[first : first + 3, _ORIENTATION : _ORIENTATION + 3] = way
+        jacobian[first : first + 3, _GYRO:] = (_cross(feet[leg]) - foot_radius * cross_up) @ turn
+    return jacobian
+
+
+@compiled_entry
+def _process_noise(
+    dynamics: Array,
+    standing: BoolArray,
+    period_s: float,
+    accelerometer: float,
+    gyro: float,
+    foot: float,
+    accelerometer_bias: float,
+    gyro_bias: float,
+) -> Array:
+    """Return Q of ``process_noise`` for the densities of ``ProcessNoiseConfig``."""
+    inputs = dynamics[:_ACCELEROMETER, _ACCELEROMETER:].copy()
+    inputs[:, :3] *= accelerometer / math.sqrt(period_s)
+    inputs[:, 3:] *= gyro / math.sqrt(period_s)
+    noise = np.zeros((ERROR_SIZE, ERROR_SIZE))
+    noise[:_ACCELEROMETER, :_ACCELEROMETER] = inputs @ inputs.T
+    for axis in range(3):
+        for leg in range(LEG_COUNT):
+            if standing[leg]:
+                noise[_FEET + 3 * leg + axis, _FEET + 3 * leg + axis] += period_s * foot**2
+        noise[_ACCELEROMETER + axis, _ACCELEROMETER + axis] = period_s * accelerometer_bias**2
+        noise[_GYRO + axis, _GYRO + axis] = period_s * gyro_bias**2
+    return noise

@@ -25,7 +25,9 @@ class TerrainPlane:
 
     def height_at(self, position_xy: Array) -> float:
         """Return the height of the plane in [m] at ``position_xy``, (2,) in [m]."""
-        return self.height + float(self.slope @ (position_xy - self.origin))
+        (slope_x, slope_y), (x, y), (x_0, y_0) = self.slope.tolist(), position_xy.tolist(), self.origin.tolist()
+        height: float = self.height + slope_x * (x - x_0) + slope_y * (y - y_0)
+        return height
 
     def moved_to(self, origin: Array) -> "TerrainPlane":
         """Return the same plane written about another origin, (2,) in [m]."""
@@ -34,7 +36,7 @@ class TerrainPlane:
     @property
     def normal(self) -> Array:
         """Unit normal, pointing up, (3,)."""
-        slope_x, slope_y = (float(value) for value in self.slope)
+        slope_x, slope_y = self.slope.tolist()
         length = math.sqrt(1.0 + slope_x**2 + slope_y**2)
         return np.array([-slope_x / length, -slope_y / length, 1.0 / length])
 

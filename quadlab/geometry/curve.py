@@ -30,6 +30,10 @@ class Curve(Protocol):
         """Return the value (or the 1st to 3rd time derivative) at ``time_s``, (d,)."""
         ...
 
+    def motion(self, time_s: float) -> Array:
+        """Return value, first and second time derivative at ``time_s``, (3, d)."""
+        ...
+
     def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
         """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""
         ...

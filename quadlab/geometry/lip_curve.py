@@ -49,12 +49,9 @@ class LipCurve:
 
     def __call__(self, time_s: float, derivative: int = 0) -> Array:
         """Return the value (or the 1st to 3rd time derivative) at ``time_s``, (d,)."""
-        knots = self._knot_list
-        if derivative and not knots[0] <= time_s <= knots[-1]:
+        if derivative and not self._spans(time_s):
             return np.zeros(self.dimension)
-        inside = min(max(time_s, knots[0]), knots[-1])
-        piece = min(bisect_right(knots, inside) - 1, len(knots) - 2)
-        local = inside - knots[piece]
+        piece, local = self._locate(time_s)
         angle = self.rate * local
         even, odd = math.cosh(angle), math.sinh(angle)
         offset, slope, p, q = self._coefficient_list[piece]
@@ -66,6 +63,29 @@ class LipCurve:
         if derivative == 1:
             values = [value + b for value, b in zip(values, slope, strict=True)]
         return np.array(values)
+
+    def motion(self, time_s: float) -> Array:
+        """Return value, first and second time derivative at ``time_s``, (3, d)."""
+        piece, local = self._locate(time_s)
+        rate, angle = self.rate, self.rate * local
+        even, odd = math.cosh(angle), math.sinh(angle)
+        offset, slope, p, q = self._coefficient_list[piece]
+        pendulum = [even * pi + odd * qi for pi, qi in zip(p, q, strict=True)]
+        value = [part + (a + local * b) for part, a, b in zip(pendulum, offset, slope, strict=True)]
+        if not self._spans(time_s):
+            return np.array([value, [0.0] * len(value), [0.0] * len(value)])
+        first = [rate * (odd * pi + even * qi) + b for pi, qi, b in zip(p, q, slope, strict=True)]
+        return np.array([value, first, [rate * rate * part for part in pendulum]])
+
+    def _spans(self, time_s: float) -> bool:
+        return self._knot_list[0] <= time_s <= self._knot_list[-1]
+
+    def _locate(self, time_s: float) -> tuple[int, float]:
+        """Return (piece, local time in [s]) that hold at ``time_s``; a knot belongs to the later piece."""
+        knots = self._knot_list
+        inside = min(max(time_s, knots[0]), knots[-1])
+        piece = min(bisect_right(knots, inside) - 1, len(knots) - 2)
+        return piece, inside - knots[piece]
 
     def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
         """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""

@@ -71,26 +71,19 @@ def quat_to_matrix(quat_wxyz: Array) -> Array:
 
 def matrix_to_quat(rotation: Array) -> Array:
     """Return the unit quaternion, (4,) wxyz with w >= 0, of a (3, 3) rotation."""
-    r = rotation
-    squares = np.array(
-        [
-            1 + r[0, 0] + r[1, 1] + r[2, 2],
-            1 + r[0, 0] - r[1, 1] - r[2, 2],
-            1 - r[0, 0] + r[1, 1] - r[2, 2],
-            1 - r[0, 0] - r[1, 1] + r[2, 2],
-        ]
-    )
-    w_x, w_y, w_z = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
-    x_y, x_z, y_z = r[0, 1] + r[1, 0], r[0, 2] + r[2, 0], r[1, 2] + r[2, 1]
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation.tolist()
+    squares = (1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz)
+    w_x, w_y, w_z = zy - yz, xz - zx, yx - xy
+    x_y, x_z, y_z = xy + yx, xz + zx, yz + zy
     rows = (
         (squares[0], w_x, w_y, w_z),
         (w_x, squares[1], x_y, x_z),
         (w_y, x_y, squares[2], y_z),
         (w_z, x_z, y_z, squares[3]),
     )
-    quat = np.array(rows[int(np.argmax(squares))])
-    quat /= np.linalg.norm(quat)
-    return -quat if quat[0] < 0 else quat
+    quat = rows[squares.index(max(squares))]
+    norm = math.copysign(math.hypot(*quat), quat[0])
+    return np.array([part / norm for part in quat])
 
 
 def rotation_log(rotation: Array) -> Array:

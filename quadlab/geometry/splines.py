@@ -54,15 +54,28 @@ class PiecewisePolynomial:
 
     def __call__(self, time_s: float, derivative: int = 0) -> Array:
         """Return the value (or the 1st to 3rd time derivative) at ``time_s``, (d,)."""
-        start, end = self.span
-        if derivative and not start <= time_s <= end:
+        if derivative and not self._spans(time_s):
             return np.zeros(self.dimension)
+        return np.array(self._evaluate(*self.locate(time_s), derivative))
+
+    def motion(self, time_s: float) -> Array:
+        """Return value, first and second time derivative at ``time_s``, (3, d)."""
         piece, local = self.locate(time_s)
+        value = self._evaluate(piece, local, 0)
+        if not self._spans(time_s):
+            return np.array([value, [0.0] * len(value), [0.0] * len(value)])
+        return np.array([value, self._evaluate(piece, local, 1), self._evaluate(piece, local, 2)])
+
+    def _spans(self, time_s: float) -> bool:
+        return self._knot_list[0] <= time_s <= self._knot_list[-1]
+
+    def _evaluate(self, piece: int, local_s: float, derivative: int) -> list[float]:
+        """Return a derivative of one polynomial by Horner's scheme."""
         table = self._derivative_lists[derivative][piece]
         values = table[-1]
         for row in table[-2::-1]:
-            values = [value * local + coefficient for value, coefficient in zip(values, row, strict=True)]
-        return np.array(values)
+            values = [value * local_s + coefficient for value, coefficient in zip(values, row, strict=True)]
+        return values
 
     def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
         """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""

@@ -127,12 +127,14 @@ class MotionPlan:
 
     def at(self, time_s: float) -> PlanSample:
         """Return the plan at ``time_s`` in [s]; after its end it stands still."""
+        position, velocity, acceleration = self.com.motion(time_s)
+        heading = self.heading.motion(time_s)
         return PlanSample(
-            com_position=self.com(time_s),
-            com_velocity=self.com(time_s, 1),
-            com_acceleration=self.com(time_s, 2),
-            yaw=float(self.heading(time_s)[0]),
-            yaw_rate=float(self.heading(time_s, 1)[0]),
+            com_position=position,
+            com_velocity=velocity,
+            com_acceleration=acceleration,
+            yaw=float(heading[0, 0]),
+            yaw_rate=float(heading[1, 0]),
             cop=self.cop(time_s),
             contacts=self.schedule.contacts_at(time_s),
         )

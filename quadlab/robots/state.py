@@ -39,17 +39,15 @@ class RobotState:
 
     def is_finite(self) -> bool:
         """Return whether every number of the state is finite."""
-        return all(
-            bool(np.isfinite(part).all())
-            for part in (
-                self.position_base_in_world,
-                self.quat_wxyz,
-                self.joint_positions,
-                self.linear_velocity_base_in_world,
-                self.angular_velocity_base_in_base,
-                self.joint_velocities,
-            )
+        parts = (
+            self.position_base_in_world,
+            self.quat_wxyz,
+            self.joint_positions,
+            self.linear_velocity_base_in_world,
+            self.angular_velocity_base_in_base,
+            self.joint_velocities,
         )
+        return bool(np.isfinite(np.concatenate(parts)).all())
 
 
 @dataclass(frozen=True)

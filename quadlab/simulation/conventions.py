@@ -5,6 +5,7 @@ joints], joints in the order of the model. Quadlab: see ``RobotState``. Pinocchi
 v_MuJoCo = G v_u with G = blkdiag(R, I, permutation).
 """
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -59,11 +60,11 @@ class MujocoMap:
 
     def read_state(self, data: Any, time_s: float) -> RobotState:
         """Return the state in ``data``; the contact sensor gives the foot's force on the ground, hence the sign."""
-        quat = data.qpos[3:7].copy()
+        quat = data.qpos[3:7]
         return RobotState(
             time_s=time_s,
             position_base_in_world=data.qpos[:3].copy(),
-            quat_wxyz=quat / np.linalg.norm(quat),
+            quat_wxyz=quat / math.hypot(*quat.tolist()),
             joint_positions=data.qpos[self.qpos],
             linear_velocity_base_in_world=data.qvel[:3].copy(),
             angular_velocity_base_in_base=data.qvel[3:6].copy(),

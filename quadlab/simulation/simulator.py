@@ -54,6 +54,7 @@ class Simulator:
         self.model: Any = spec.compile()
         self._data: Any = mujoco.MjData(self.model)
         self._map = MujocoMap.of(self.model, robot)
+        self._body_names = tuple(self.model.body(body).name for body in range(1, self.model.nbody))
         self._imu = ImuIntegrator.of(self.model)
         self._pushes = tuple(self._schedule(push) for push in scenario.pushes)
         self._initial_state = initial_state(robot, scenario.initial_perturbation, seed)
@@ -143,6 +144,8 @@ class Simulator:
 
     def active_pushes(self) -> list[tuple[Array, Array]]:
         """Return point of application, (3,) in [m], and force, (3,) in [N], of each push that acts now."""
+        if not self._pushes:
+            return []
         mujoco.mj_kinematics(self.model, self._data)
         return [
             (self._data.xipos[push.body].copy(), push.force.copy())
@@ -153,8 +156,7 @@ class Simulator:
     def body_poses(self) -> tuple[tuple[str, ...], Array, Array]:
         """Return names, (n,), positions, (n, 3) in [m], and quaternions wxyz, (n, 4), of the robot's bodies."""
         mujoco.mj_kinematics(self.model, self._data)
-        names = tuple(self.model.body(body).name for body in range(1, self.model.nbody))
-        return names, self._data.xpos[1:].copy(), self._data.xquat[1:].copy()
+        return self._body_names, self._data.xpos[1:].copy(), self._data.xquat[1:].copy()
 
     def integration_state(self) -> Array:
         """Return everything that the future depends on besides the commands; see ``restore``."""

@@ -40,7 +40,7 @@ class TrialMetrics:
     _ticks_us: list[float] = field(default_factory=list)
     _at_limit: int = 0
     _energy: float = 0.0
-    _slip: Array = field(default_factory=lambda: np.zeros(LEG_COUNT))
+    _slip: list[float] = field(default_factory=lambda: [0.0] * LEG_COUNT)
     _slip_max: float = 0.0
     _fallbacks: int = 0
     _first: RobotState | None = None
@@ -74,11 +74,11 @@ class TrialMetrics:
 
     def _add_slip(self, state: RobotState, telemetry: ControlTelemetry) -> None:
         """Integrate the speed of the material point under each standing, loaded foot over its stance."""
-        speeds = np.hypot(*telemetry.foot_contact_velocities[:, :2].T)
-        loaded = state.foot_forces_in_world[:, 2] > 0.0
-        standing = np.array([mode is LegMode.STANCE for mode in telemetry.leg_modes])
-        self._slip = np.where(standing, self._slip + speeds * loaded * self.period_s, 0.0)
-        self._slip_max = max(self._slip_max, float(self._slip.max()))
+        velocities, forces = telemetry.foot_contact_velocities.tolist(), state.foot_forces_in_world[:, 2].tolist()
+        for leg, mode in enumerate(telemetry.leg_modes):
+            speed = math.hypot(*velocities[leg][:2]) if forces[leg] > 0.0 else 0.0
+            self._slip[leg] = self._slip[leg] + speed * self.period_s if mode is LegMode.STANCE else 0.0
+        self._slip_max = max(self._slip_max, *self._slip)
 
     def summary(self) -> dict[str, float | int | str | None]:
         """Return the metrics by their names in ``TrialResult``; empty if there was no tick."""
@@ -116,6 +116,6 @@ def _rms(values: list[float]) -> float:
 
 def _roll_pitch_error(state: RobotState, telemetry: ControlTelemetry) -> float:
     """Angle in [rad] between the base and its reference, heading apart."""
-    roll, pitch, yaw = (float(angle) for angle in telemetry.base_rpy_reference)
+    roll, pitch, yaw = telemetry.base_rpy_reference.tolist()
     error = rotation_log(rotation_zyx(yaw, pitch, roll).T @ state.rotation_base_to_world)
     return math.hypot(error[0], error[1])

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from estimation_cases import any_covariance, any_filter_state, ekf_config
+from scipy.linalg import block_diag
 
 from quadlab.estimation.correction import (
     FootInnovations,
     correct,
     foot_innovations,
-    measurement_jacobian,
     place_foot,
 )
 from quadlab.estimation.error_state import ERROR_SIZE, POSITION, FilterState, box_minus, box_plus, foot_block
@@ -25,6 +25,15 @@ def legs_of(state: FilterState) -> LegKinematics:
     """The legs as they are if ``state`` is true."""
     jacobians = np.random.default_rng(5).normal(scale=0.3, size=(4, 3, 3))
     return LegKinematics((state.feet - state.position) @ state.rotation, jacobians, np.zeros((4, 3)))
+
+
+def measurement_jacobian(feet: list[int]) -> Array:
+    """H of e = H d for the innovations e_i = dp_i - dr of ``feet``."""
+    jacobian = np.zeros((len(feet), 3, ERROR_SIZE))
+    for row, leg in enumerate(feet):
+        jacobian[row, :, POSITION] = -np.eye(3)
+        jacobian[row, :, foot_block(leg)] = np.eye(3)
+    return jacobian.reshape(-1, ERROR_SIZE)
 
 
 def innovations(truth: FilterState, estimate: FilterState, covariance: Array) -> FootInnovations:
@@ -49,6 +58,20 @@ def test_noise_of_a_foot_is_that_of_its_joints_and_of_its_model() -> None:
     jacobian = state.rotation @ legs_of(state).jacobians[2]
     expected = CONFIG.encoder_rad**2 * jacobian @ jacobian.T + CONFIG.kinematics_m**2 * np.eye(3)
     np.testing.assert_allclose(found, expected)
+
+
+@pytest.mark.parametrize("feet", [[2], [0, 3], [0, 1, 2], [0, 1, 2, 3]])
+def test_correction_is_that_of_kalman_in_josephs_form(feet: list[int]) -> None:
+    truth, estimate, covariance = any_filter_state(1), any_filter_state(2), any_covariance(1)
+    seen, used = innovations(truth, estimate, covariance), np.isin(np.arange(4), feet)
+    corrected = correct(estimate, covariance, seen, used)
+    jacobian, noise, values = measurement_jacobian(feet), block_diag(*seen.noise[feet]), seen.values[feet].ravel()
+    spread = jacobian @ covariance @ jacobian.T + noise
+    gain = covariance @ jacobian.T @ np.linalg.inv(spread)
+    left = np.eye(ERROR_SIZE) - gain @ jacobian
+    np.testing.assert_allclose(corrected.covariance, left @ covariance @ left.T + gain @ noise @ gain.T, atol=1e-12)
+    np.testing.assert_allclose(box_minus(corrected.state, estimate), gain @ values, atol=1e-9)
+    assert corrected.innovation_squared == pytest.approx(values @ np.linalg.inv(spread) @ values)
 
 
 def test_correction_brings_the_estimate_nearer_and_the_covariance_stays_sound() -> None:

@@ -38,3 +38,8 @@ def test_evaluation_of_many_times_agrees_with_single_ones(derivative: int) -> No
     pieces, local = np.array([0, 0, 1, 1]), np.array([0.0, 0.07, 0.0, 0.2])
     single = [CURVE(float(KNOTS[piece] + time), derivative) for piece, time in zip(pieces, local, strict=True)]
     np.testing.assert_allclose(CURVE.on_pieces(pieces, local, derivative), single, atol=1e-12)
+
+
+@pytest.mark.parametrize("time_s", [0.0, 0.5, 0.55, 0.6, 0.83, 0.9, 2.0])
+def test_motion_is_value_and_two_derivatives(time_s: float) -> None:
+    np.testing.assert_allclose(CURVE.motion(time_s), [CURVE(time_s, order) for order in range(3)], atol=1e-12)

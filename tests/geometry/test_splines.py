@@ -70,3 +70,9 @@ def test_quintic_joins_position_velocity_and_acceleration(duration: float) -> No
 def test_quintic_between_equal_states_of_rest_rests() -> None:
     state = np.array([[0.4, -1.0], [0.0, 0.0], [0.0, 0.0]])
     np.testing.assert_allclose(quintic_between(state, state, 0.7)[1:], 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("time_s", [-2.0, 1.0, 1.1, 1.4, 2.5, 3.0, 9.0])
+def test_motion_is_value_and_two_derivatives(time_s: float) -> None:
+    polynomial = curve()
+    np.testing.assert_array_equal(polynomial.motion(time_s), [polynomial(time_s, order) for order in range(3)])

@@ -1,5 +1,8 @@
 """Planning without running: what it prints, leaves behind and refuses."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +37,15 @@ def test_plan_is_printed_by_name_saved_and_drawn(tmp_path: Path, capsys: pytest.
     assert str(plan.report.variables) in printed
     assert str(directory) in printed
     assert {path.name for path in directory.iterdir()} == {"config.yaml", PLAN_FILE, *FIGURES}
+
+
+def test_first_use_on_a_machine_prints_nothing_but_the_result(tmp_path: Path) -> None:
+    """Matplotlib then looks for fonts, and would say so."""
+    program = "import sys; from quadlab.cli import main; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", program, "plan", *WALK, f"results_dir={tmp_path}"]
+    fresh = {**os.environ, "MPLCONFIGDIR": str(tmp_path / "matplotlib")}
+    done = subprocess.run(command, check=True, env=fresh, capture_output=True, text=True, timeout=300)
+    assert done.stdout.startswith("solved: "), done.stdout
 
 
 def test_plan_is_the_one_that_the_trial_follows(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

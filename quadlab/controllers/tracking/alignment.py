@@ -53,8 +53,9 @@ def feet_alignment(planned_feet: Array, measured_feet: Array) -> PlanarPose:
         planned_feet: the footholds in the plan, (4, 2) in [m], order ``LEGS``.
         measured_feet: the same feet in the world, (4, 2) in [m].
     """
-    yaw = wrap_angle(_feet_heading(measured_feet) - _feet_heading(planned_feet))
-    return PlanarPose(planned_feet.sum(axis=0) / len(planned_feet), measured_feet.sum(axis=0) / len(measured_feet), yaw)
+    planned, planned_heading = _feet_pose(planned_feet)
+    measured, measured_heading = _feet_pose(measured_feet)
+    return PlanarPose(planned, measured, wrap_angle(measured_heading - planned_heading))
 
 
 def base_alignment(
@@ -64,10 +65,11 @@ def base_alignment(
     return PlanarPose(planned_position, measured_position, wrap_angle(measured_yaw - planned_yaw))
 
 
-def _feet_heading(feet: Array) -> float:
-    """Direction from the middle of the hind feet to the middle of the fore feet in [rad]."""
-    forward = feet[0] + feet[1] - feet[2] - feet[3]
-    return math.atan2(forward[1], forward[0])
+def _feet_pose(feet: Array) -> tuple[Array, float]:
+    """Return the mean of the feet, (2,) in [m], and the direction from hind to fore feet in [rad]."""
+    (x0, y0), (x1, y1), (x2, y2), (x3, y3) = feet.tolist()
+    mean = np.array([0.25 * (x0 + x1 + x2 + x3), 0.25 * (y0 + y1 + y2 + y3)])
+    return mean, math.atan2(y0 + y1 - y2 - y3, x0 + x1 - x2 - x3)
 
 
 class SmoothedAlignment:
@@ -78,9 +80,8 @@ class SmoothedAlignment:
 
     def __init__(self, time_constant_s: float, alignment: PlanarPose) -> None:
         self.time_constant_s = time_constant_s
-        self._raw = alignment
-        self._yaw_offset = 0.0
-        self._offset = np.zeros(2)
+        self.current = alignment
+        """The alignment as it was returned last."""
 
     def update(self, raw: PlanarPose, torso_in_plan: Array, period_s: float) -> PlanarPose:
         """Return the smoothed alignment.
@@ -90,22 +91,9 @@ class SmoothedAlignment:
             torso_in_plan: planned position that must not jump, (2,) in [m].
             period_s: control period in [s].
         """
-        self._absorb(raw, torso_in_plan)
-        decay = math.exp(-period_s / self.time_constant_s)
-        self._yaw_offset *= decay
-        self._offset = self._offset * decay
+        before, decay = self.current, math.exp(-period_s / self.time_constant_s)
+        yaw_offset = wrap_angle(before.yaw - raw.yaw)
+        turned = PlanarPose(raw.point_in_plan, raw.point_in_world, raw.yaw + yaw_offset)
+        offset = before.position(torso_in_plan) - turned.position(torso_in_plan)
+        self.current = PlanarPose(raw.point_in_plan, raw.point_in_world + decay * offset, raw.yaw + decay * yaw_offset)
         return self.current
-
-    def _absorb(self, raw: PlanarPose, torso_in_plan: Array) -> None:
-        before = self.current
-        self._raw = raw
-        self._yaw_offset = wrap_angle(before.yaw - raw.yaw)
-        self._offset = np.zeros(2)
-        self._offset = before.position(torso_in_plan) - self.current.position(torso_in_plan)
-
-    @property
-    def current(self) -> PlanarPose:
-        """The alignment as it was returned last."""
-        return PlanarPose(
-            self._raw.point_in_plan, self._raw.point_in_world + self._offset, self._raw.yaw + self._yaw_offset
-        )

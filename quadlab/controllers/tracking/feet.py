@@ -89,7 +89,7 @@ class FootPlanner:
         com = kinematics.com_position[:2]
         com_height = float(kinematics.com_position[2]) - terrain.height_at(com)
         corrected = planned + balance_correction(self.config, velocity_error, com_height, phase)
-        reach = self.base_height * np.array([self.config.reach_forward, self.config.reach_sideways])
+        reach = (self.base_height * self.config.reach_forward, self.base_height * self.config.reach_sideways)
         heading = yaw_of(kinematics.base_rotation)
         foothold = within_reach(corrected, com, heading, self.nominal_feet[number], reach)
         return np.array([*foothold, terrain.height_at(foothold) - self.config.depth * self.base_height])

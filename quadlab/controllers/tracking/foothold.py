@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from quadlab.controllers.tracking.config import SwingConfig
-from quadlab.geometry.rotations import Array, rotation_2d
+from quadlab.geometry.rotations import Array
 from quadlab.planners.problem import GRAVITY
 
 
@@ -18,21 +18,24 @@ def balance_correction(config: SwingConfig, velocity_error: Array, com_height: f
         com_height: over the ground in [m]; a fallen robot may have it below, which gives no correction.
         phase: progress of the swing in [0, 1].
     """
-    speed = float(np.hypot(*velocity_error))
+    speed = math.hypot(*velocity_error.tolist())
     saturation = min(1.0, config.feedback_speed_limit_mps / max(speed, 1e-9))
     return config.feedback * math.sqrt(max(com_height, 0.0) / GRAVITY) * min(phase, 1.0) * saturation * velocity_error
 
 
-def within_reach(foothold: Array, com: Array, yaw: float, nominal: Array, reach: Array) -> Array:
+def within_reach(foothold: Array, com: Array, yaw: float, nominal: Array, reach: tuple[float, float]) -> Array:
     """Return ``foothold`` moved into the box that the leg can reach.
 
     Args:
         foothold, com: in the world, (2,) in [m].
         yaw: heading of the base in [rad].
         nominal: nominal foot position relative to the CoM in the heading frame, (2,) in [m].
-        reach: half size of the box in the heading frame, (2,) in [m].
+        reach: half size of the box in the heading frame, forward and sideways in [m].
     """
-    turn = rotation_2d(yaw)
-    offset = np.clip(turn.T @ (foothold - com) - nominal, -reach, reach)
-    moved: Array = com + turn @ (nominal + offset)
-    return moved
+    cosine, sine = math.cos(yaw), math.sin(yaw)
+    (x, y), (com_x, com_y), (ahead, aside) = foothold.tolist(), com.tolist(), nominal.tolist()
+    forward = cosine * (x - com_x) + sine * (y - com_y)
+    left = -sine * (x - com_x) + cosine * (y - com_y)
+    forward = min(max(forward, ahead - reach[0]), ahead + reach[0])
+    left = min(max(left, aside - reach[1]), aside + reach[1])
+    return np.array([com_x + cosine * forward - sine * left, com_y + sine * forward + cosine * left])

@@ -11,7 +11,7 @@ from quadlab.geometry.rotations import Array, rotation_zyx
 def torso_rotation(yaw: float, terrain: TerrainPlane, slope_following: float) -> Array:
     """Return the desired base rotation, (3, 3): heading ``yaw`` in [rad], roll and pitch a share of the slope."""
     c, s = math.cos(yaw), math.sin(yaw)
-    slope_x, slope_y = (float(value) for value in terrain.slope)
+    slope_x, slope_y = terrain.slope.tolist()
     forward, left = c * slope_x + s * slope_y, -s * slope_x + c * slope_y
     return rotation_zyx(yaw, -math.atan(slope_following * forward), math.atan(slope_following * left))
 
@@ -19,7 +19,7 @@ def torso_rotation(yaw: float, terrain: TerrainPlane, slope_following: float) ->
 def ground_axes(yaw: float, terrain: TerrainPlane) -> Array:
     """Return the columns heading, lateral and normal of the ground, (3, 3), for a heading ``yaw`` in [rad]."""
     c, s = math.cos(yaw), math.sin(yaw)
-    nx, ny, nz = (float(value) for value in terrain.normal)
+    nx, ny, nz = terrain.normal.tolist()
     off_plane = c * nx + s * ny
     hx, hy, hz = c - off_plane * nx, s - off_plane * ny, -off_plane * nz
     length = math.sqrt(hx * hx + hy * hy + hz * hz)

@@ -13,7 +13,7 @@ from quadlab.geometry.rotations import rotation_2d
 
 HEIGHT = 0.47  # [m]
 ERROR = np.array([0.2, -0.1])  # [m/s]
-COM, YAW, NOMINAL, REACH = np.array([1.0, -2.0]), 0.8, np.array([0.36, 0.2]), np.array([0.25, 0.12])
+COM, YAW, NOMINAL, REACH = np.array([1.0, -2.0]), 0.8, np.array([0.36, 0.2]), (0.25, 0.12)
 
 
 def swing_config(**changes: Any) -> SwingConfig:
@@ -52,15 +52,15 @@ def test_robot_that_lies_below_the_ground_plane_gets_no_correction() -> None:
 
 @pytest.mark.parametrize("share", [(0.0, 0.0), (0.9, -0.9), (-1.0, 1.0)])
 def test_foothold_within_reach_stays(share: tuple[float, float]) -> None:
-    foothold = COM + rotation_2d(YAW) @ (NOMINAL + 0.999999 * REACH * share)
+    foothold = COM + rotation_2d(YAW) @ (NOMINAL + 0.999999 * np.multiply(REACH, share))
     np.testing.assert_allclose(within_reach(foothold, COM, YAW, NOMINAL, REACH), foothold, atol=1e-12)
 
 
 @pytest.mark.parametrize("outside", [(1.5, 0.3), (0.2, -2.0), (-3.0, 4.0)])
 def test_foothold_out_of_reach_is_moved_to_the_nearest_point_of_the_box(outside: tuple[float, float]) -> None:
     turn = rotation_2d(YAW)
-    foothold = COM + turn @ (NOMINAL + REACH * outside)
-    nearest = COM + turn @ (NOMINAL + REACH * np.clip(outside, -1.0, 1.0))
+    foothold = COM + turn @ (NOMINAL + np.multiply(REACH, outside))
+    nearest = COM + turn @ (NOMINAL + np.multiply(REACH, np.clip(outside, -1.0, 1.0)))
     moved = within_reach(foothold, COM, YAW, NOMINAL, REACH)
     np.testing.assert_allclose(moved, nearest, atol=1e-12)
     np.testing.assert_allclose(within_reach(moved, COM, YAW, NOMINAL, REACH), moved, atol=1e-12)
