@@ -60,13 +60,16 @@ def draw(results: StudyResults) -> Figure:
     """Return differences with their 95 % intervals, one panel a measure and one column a question."""
     table = numbers(results)
     names = list(dict.fromkeys(table["measure"]))
-    figure = Figure(figsize=(TEXT_WIDTH, 0.36 * len(names) + 0.9), layout="constrained")
+    figure = Figure(figsize=(TEXT_WIDTH, 0.36 * len(names) + 1.1), layout="constrained")
     panels = figure.subplots(len(names), len(FACTORS), squeeze=False)
     for column, (factor, (first, second)) in enumerate(FACTORS.items()):
         panels[0, column].set_title(f"{second} minus {first}")
         for row, name in enumerate(names):
             entry = table[(table["factor"] == factor) & (table["measure"] == name)]
             _draw_difference(panels[row, column], entry.iloc[0], label=column == 0)
+    figure.supxlabel(
+        "mean difference with 95 % interval; blue: the first is better, orange: the second, grey: not clear"
+    )
     return figure
 
 

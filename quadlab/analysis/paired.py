@@ -11,6 +11,8 @@ from quadlab.analysis.statistics import Interval, paired_mean_difference, paired
 def pairs(table: pd.DataFrame, factor: str, levels: tuple[str, str], same: Sequence[str], column: str) -> pd.DataFrame:
     """Return a column for both levels side by side, one row a condition that has both.
 
+    Conditions of which a column says nothing, because another block of the study varies it, agree in that column.
+
     Args:
         table: one row a job.
         factor: column of the levels.
@@ -18,7 +20,8 @@ def pairs(table: pd.DataFrame, factor: str, levels: tuple[str, str], same: Seque
         same: columns in which a pair agrees.
         column: to compare.
     """
-    chosen = table[table[factor].isin(levels)].astype(dict.fromkeys(same, str))
+    chosen = table[table[factor].isin(levels)]
+    chosen = chosen.assign(**{name: chosen[name].astype(str).where(chosen[name].notna(), "") for name in same})
     wide = chosen.pivot_table(index=list(same), columns=factor, values=column, aggfunc="first", observed=True)
     return wide.reindex(columns=list(levels)).dropna()
 

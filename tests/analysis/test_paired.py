@@ -1,5 +1,6 @@
 """Only conditions that both levels have are compared, each with its own partner."""
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -33,3 +34,10 @@ def test_share_difference_counts_pairs_that_disagree() -> None:
     difference = share_difference(TABLE, "controller", LEVELS, ["seed"], ["completed"])
     assert difference.estimate == pytest.approx(0.5)
     assert difference.count == 2
+
+
+def test_column_that_says_nothing_of_a_condition_does_not_drop_it() -> None:
+    """Blocks of a study vary different things; pushes have no place of a plank."""
+    with_places = TABLE.assign(place=pd.Series([np.nan, np.nan, 0.9, 0.9, np.nan]))
+    found = pairs(with_places, "controller", LEVELS, ["seed", "place"], "error")
+    assert sorted(found["weighted"]) == [2.0, 4.0]
