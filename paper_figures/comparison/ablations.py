@@ -29,7 +29,7 @@ def draw(results: StudyResults) -> Figure:
     axes.set_yticks(list(places), table["variant"])
     axes.invert_yaxis()
     axes.grid(visible=False, axis="y")
-    axes.set_xlabel("largest push survived, J/m [m/s]; bar: median, dots: cases")
+    axes.set_xlabel("largest push, J/m [m/s]; bar: median")
     return figure
 
 

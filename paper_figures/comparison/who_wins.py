@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
+from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -44,7 +45,7 @@ MEASURES = (
     Measure("largest push [m/s]", "limit", True, PUSH_S / ANYMAL_KG, "push", True),
     Measure("highest plank [cm]", "limit", True, 100.0, "plank", True),
     Measure("deepest step down [cm]", "limit", True, 100.0, "step down", True),
-    Measure("CoM error, maximum [mm]", "com_error_max_mm", False),
+    Measure("largest CoM error [mm]", "com_error_max_mm", False),
     Measure("roll and pitch, rms [deg]", "roll_pitch_rms_deg", False),
     Measure("cost of transport [-]", "cost_of_transport", False),
     Measure("planning [ms]", "planning_solve_ms", False),
@@ -67,9 +68,8 @@ def draw(results: StudyResults) -> Figure:
         for row, name in enumerate(names):
             entry = table[(table["factor"] == factor) & (table["measure"] == name)]
             _draw_difference(panels[row, column], entry.iloc[0], label=column == 0)
-    figure.supxlabel(
-        "mean difference with 95 % interval; blue: the first is better, orange: the second, grey: not clear"
-    )
+    meaning = "mean difference with 95 % interval; blue: the first is better, orange: the second, grey: not clear"
+    figure.supxlabel(meaning, fontsize=rcParams["axes.labelsize"])
     return figure
 
 
@@ -82,11 +82,11 @@ def _draw_difference(axes: Axes, entry: "pd.Series[float]", *, label: bool) -> N
     axes.axvline(0.0, color="#1a1a1a", linewidth=0.6)
     reach = 1.15 * max(abs(lower), abs(upper), 1e-9)
     axes.set_xlim(-reach, reach)
-    axes.set_yticks([])
+    axes.set_yticks([0.0], [str(entry["measure"])] if label else [""])
+    axes.tick_params(axis="y", length=0.0)
+    axes.grid(visible=False, axis="y")
     axes.spines["left"].set_visible(False)
     axes.locator_params(axis="x", nbins=5)
-    if label:
-        axes.set_ylabel(str(entry["measure"]), rotation=0, ha="right", va="center")
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:
