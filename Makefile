@@ -64,6 +64,7 @@ bench: setup
 	$(BIN)/python experiments/bench_kinematic_sqp.py
 	$(BIN)/python experiments/bench_controllers.py
 	$(BIN)/python experiments/bench_loop.py
+	$(BIN)/python experiments/bench_sweep.py --many 0
 
 ## Run every experiment of the papers that was not run yet, and redraw their tables and figures.
 reproduce: setup system
