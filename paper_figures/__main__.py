@@ -1,5 +1,6 @@
 """Redraw tables and figures from results/: ``python -m paper_figures [names ...]``, e.g. gehring2017 or figure6."""
 
+import argparse
 import sys
 
 from paper_figures.gallery import artefact_scripts
@@ -29,4 +30,6 @@ def main(names: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    parser = argparse.ArgumentParser(prog="python -m paper_figures", description=__doc__)
+    parser.add_argument("names", nargs="*", help="parts of <paper>.<script>; all artefacts if none is given")
+    sys.exit(main(parser.parse_args().names))

@@ -22,6 +22,12 @@ from quadlab.trials.problems import suggestion, validation_problems
 PAPERS = ("gehring2017", "winkler2017", "bellicoso2016")
 FOLDER = Path(__file__).parent
 EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 130
+USAGE = """usage: python experiments/reproduce.py [paper=all] [artefact=...] [jobs=...]
+
+  paper     gehring2017, winkler2017, bellicoso2016, all of them, or comparison
+  artefact  part of the name of a script in paper_figures/<paper>/; all of the paper if it is left out
+  jobs      processes at a time; one a core if it is left out
+"""
 
 
 class ReproduceOptions(StrictModel):
@@ -40,6 +46,9 @@ class ReproduceOptions(StrictModel):
 
 def main(arguments: Sequence[str]) -> int:
     """Reproduce what arguments such as ``paper=all`` ask for and return the exit code."""
+    if {"-h", "--help"} & set(arguments):
+        sys.stdout.write(USAGE)
+        return 0
     try:
         return reproduce(read_options(arguments), StudyProgress())
     except QuadlabError as error:
