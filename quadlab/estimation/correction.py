@@ -13,6 +13,9 @@ from quadlab.jit import compiled_entry
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.pinocchio_model import IndexArray
 
+_FEET = FEET.start
+"""First row of the feet in the error."""
+
 
 class LegMeasurementConfig(StrictModel):
     """How well the legs measure.
@@ -151,7 +154,7 @@ def _correct(covariance: Array, values: Array, noise: Array, feet: IndexArray) -
         innovation[rows] = values[leg]
         spread[rows, rows] = noise[leg]
         crossed[rows] = covariance[foot : foot + 3] - covariance[:3]
-    spread_of_noise = spread.copy()
+    noise_of_feet = spread.copy()
     for row, leg in enumerate(feet):
         columns, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
         spread[:, columns] += crossed[:, foot : foot + 3] - crossed[:, :3]
@@ -161,9 +164,6 @@ def _correct(covariance: Array, values: Array, noise: Array, feet: IndexArray) -
         columns, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
         left[:, :3] += gain[:, columns]
         left[:, foot : foot + 3] -= gain[:, columns]
-    joseph = left @ covariance @ left.T + gain @ spread_of_noise @ gain.T
+    joseph = left @ covariance @ left.T + gain @ noise_of_feet @ gain.T
     squared = float(innovation @ np.linalg.solve(spread, innovation))
     return gain @ innovation, 0.5 * (joseph + joseph.T), squared
-
-
-_FEET = FEET.start
