@@ -1,5 +1,6 @@
 """What every curve over time can do, whatever its pieces are made of."""
 
+from bisect import bisect_right
 from typing import Protocol
 
 import numpy as np
@@ -37,3 +38,10 @@ class Curve(Protocol):
     def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
         """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""
         ...
+
+
+def piece_at(knots: list[float], time_s: float) -> tuple[int, float]:
+    """Return (piece, local time in [s]) that hold at ``time_s``; a knot belongs to the later piece."""
+    inside = min(max(time_s, knots[0]), knots[-1])
+    piece = min(bisect_right(knots, inside) - 1, len(knots) - 2)
+    return piece, inside - knots[piece]

@@ -1,13 +1,13 @@
 """Exact motion of a linear inverted pendulum whose centre of pressure moves along straight lines."""
 
 import math
-from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from quadlab.geometry.curve import piece_at
 from quadlab.geometry.rotations import Array
 
 
@@ -51,7 +51,7 @@ class LipCurve:
         """Return the value (or the 1st to 3rd time derivative) at ``time_s``, (d,)."""
         if derivative and not self._spans(time_s):
             return np.zeros(self.dimension)
-        piece, local = self._locate(time_s)
+        piece, local = piece_at(self._knot_list, time_s)
         angle = self.rate * local
         even, odd = math.cosh(angle), math.sinh(angle)
         offset, slope, p, q = self._coefficient_list[piece]
@@ -66,7 +66,7 @@ class LipCurve:
 
     def motion(self, time_s: float) -> Array:
         """Return value, first and second time derivative at ``time_s``, (3, d)."""
-        piece, local = self._locate(time_s)
+        piece, local = piece_at(self._knot_list, time_s)
         rate, angle = self.rate, self.rate * local
         even, odd = math.cosh(angle), math.sinh(angle)
         offset, slope, p, q = self._coefficient_list[piece]
@@ -79,13 +79,6 @@ class LipCurve:
 
     def _spans(self, time_s: float) -> bool:
         return self._knot_list[0] <= time_s <= self._knot_list[-1]
-
-    def _locate(self, time_s: float) -> tuple[int, float]:
-        """Return (piece, local time in [s]) that hold at ``time_s``; a knot belongs to the later piece."""
-        knots = self._knot_list
-        inside = min(max(time_s, knots[0]), knots[-1])
-        piece = min(bisect_right(knots, inside) - 1, len(knots) - 2)
-        return piece, inside - knots[piece]
 
     def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
         """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""

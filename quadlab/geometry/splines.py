@@ -1,12 +1,12 @@
 """Piecewise polynomials and the quintic that joins two states."""
 
-from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from quadlab.geometry.curve import piece_at
 from quadlab.geometry.rotations import Array
 
 
@@ -88,10 +88,7 @@ class PiecewisePolynomial:
 
     def locate(self, time_s: float) -> tuple[int, float]:
         """Return (piece, local time in [s]) that hold at ``time_s``; a knot belongs to the later piece."""
-        knots = self._knot_list
-        inside = min(max(time_s, knots[0]), knots[-1])
-        piece = min(bisect_right(knots, inside) - 1, len(knots) - 2)
-        return piece, inside - knots[piece]
+        return piece_at(self._knot_list, time_s)
 
 
 def quintic_between(start: Array, end: Array, duration_s: float) -> Array:
