@@ -58,8 +58,8 @@ def disturb(folder: Path, count: int, kills: int) -> None:
     while process.poll() is None and killed < kills:
         workers = [worker for server in children(process.pid) for worker in children(server)]
         if workers and finished(folder) >= moments[killed]:
-            subprocess.run(["kill", "-KILL", str(draw.choice(workers))], check=False)
-            killed += 1
+            done = subprocess.run(["kill", "-KILL", str(draw.choice(workers))], check=False, capture_output=True)
+            killed += done.returncode == 0  # it may have ended on its own in between
         time.sleep(0.2)
     while process.poll() is None and finished(folder) < 0.6 * count:
         time.sleep(0.2)

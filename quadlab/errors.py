@@ -12,7 +12,7 @@ class ConfigurationError(QuadlabError):
     """A configuration that cannot describe a trial (exit code 2 at the command line)."""
 
 
-class RobotDescriptionError(QuadlabError):
+class RobotDescriptionError(ConfigurationError):
     """A robot description that cannot be loaded or does not have the named parts."""
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from quadlab.geometry.curve import piece_at
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 
 
 @dataclass(frozen=True)
@@ -66,16 +67,7 @@ class LipCurve:
 
     def motion(self, time_s: float) -> Array:
         """Return value, first and second time derivative at ``time_s``, (3, d)."""
-        piece, local = piece_at(self._knot_list, time_s)
-        rate, angle = self.rate, self.rate * local
-        even, odd = math.cosh(angle), math.sinh(angle)
-        offset, slope, p, q = self._coefficient_list[piece]
-        pendulum = [even * pi + odd * qi for pi, qi in zip(p, q, strict=True)]
-        value = [part + (a + local * b) for part, a, b in zip(pendulum, offset, slope, strict=True)]
-        if not self._spans(time_s):
-            return np.array([value, [0.0] * len(value), [0.0] * len(value)])
-        first = [rate * (odd * pi + even * qi) + b for pi, qi, b in zip(p, q, slope, strict=True)]
-        return np.array([value, first, [rate * rate * part for part in pendulum]])
+        return _motion(self.knots, self.coefficients, self.rate, time_s)
 
     def _spans(self, time_s: float) -> bool:
         return self._knot_list[0] <= time_s <= self._knot_list[-1]
@@ -92,3 +84,21 @@ class LipCurve:
         if derivative == 1:
             value += slope
         return value
+
+
+@compiled_entry
+def _motion(knots: Array, coefficients: Array, rate: float, time_s: float) -> Array:
+    """Return the rows of ``LipCurve.motion``."""
+    inside = min(max(time_s, knots[0]), knots[-1])
+    piece = np.searchsorted(knots[1:-1], inside, side="right")
+    local, size = inside - knots[piece], coefficients.shape[2]
+    even, odd = math.cosh(rate * local), math.sinh(rate * local)
+    motion = np.zeros((3, size))
+    for axis in range(size):
+        offset, slope, p, q = coefficients[piece, :, axis]
+        pendulum = even * p + odd * q
+        motion[0, axis] = pendulum + (offset + local * slope)
+        if inside == time_s:
+            motion[1, axis] = rate * (odd * p + even * q) + slope
+            motion[2, axis] = rate * rate * pendulum
+    return motion

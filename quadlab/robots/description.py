@@ -1,5 +1,6 @@
 """The URDF text from which every model of a robot is built: Pinocchio's and the simulator's alike."""
 
+import difflib
 import importlib.metadata
 import re
 import sys
@@ -13,6 +14,7 @@ from quadlab.errors import RobotDescriptionError
 from quadlab.robots.config import DescriptionOverrides, RobotConfig
 
 _PACKAGE = "example-robot-data"
+_NAMED_FILES = 5
 _INERTIA_ENTRIES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
@@ -38,14 +40,16 @@ def urdf_path(config: RobotConfig) -> Path:
     """Return the path of the robot's URDF.
 
     Raises:
-        RobotDescriptionError: if there is no such file; the message names the files beside it.
+        RobotDescriptionError: if there is no such file; the message names those whose names are nearest.
     """
     path = description_folder() / config.urdf
     if path.is_file():
         return path
-    folder = path.parent.parent if path.parent.parent.is_dir() else description_folder()
-    known = sorted(str(found.relative_to(description_folder())) for found in folder.glob("**/*.urdf"))
-    raise RobotDescriptionError(f"robot {config.name}: no URDF '{config.urdf}'; known: {', '.join(known)}")
+    known = sorted(str(found.relative_to(description_folder())) for found in description_folder().glob("**/*.urdf"))
+    nearest = difflib.get_close_matches(config.urdf, known, _NAMED_FILES, cutoff=0.0)
+    raise RobotDescriptionError(
+        f"robot {config.name}: no URDF '{config.urdf}'; of {len(known)} the nearest: {', '.join(nearest)}"
+    )
 
 
 def load_urdf_text(config: RobotConfig) -> str:

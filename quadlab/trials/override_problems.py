@@ -11,8 +11,11 @@ from quadlab.trials.problems import suggestion
 COMPOSITION_ERRORS = (HydraException, OmegaConfBaseException, yaml.YAMLError)
 """What Hydra raises for wrong overrides and wrong files."""
 
-UNTYPED_COMPOSITION_ERRORS = (ValueError, TypeError)
-"""What it raises for an override without a name, and for a word where the number of a list entry belongs."""
+UNTYPED_COMPOSITION_ERRORS = (ValueError, TypeError, AssertionError, OSError)
+"""What it raises for an override without a name, for a word where the number of a list entry belongs, and for a name
+that is longer than a file's may be."""
+
+_LONGEST_PATH = 300
 
 
 def composition_problem(error: Exception) -> str:
@@ -29,6 +32,10 @@ def composition_problem(error: Exception) -> str:
         return _unknown_key(error.__cause__) or f"{_first_line(error)}: {_first_line(error.__cause__)}"
     if isinstance(error, yaml.MarkedYAMLError) and error.problem_mark:
         return f"{error.problem_mark.name}, line {error.problem_mark.line + 1}: {error.problem}"
+    if isinstance(error, AssertionError):
+        return "an override has no key; expected key=value, +key=value or ~key"
+    if isinstance(error, OSError):
+        return f"{str(error.filename)[:_LONGEST_PATH]}: {error.strerror}"
     return _first_line(error)
 
 

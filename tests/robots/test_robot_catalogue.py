@@ -31,7 +31,7 @@ def test_unknown_robot_names_the_known_ones() -> None:
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"urdf": "hyq_description/robots/nothing.urdf"}, r"no URDF .*known: .*hyq_no_sensors\.urdf"),
+        ({"urdf": "hyq_description/robots/nothing.urdf"}, r"no URDF .*nearest: .*hyq_no_sensors\.urdf"),
         ({"base_link": "trunk"}, r"base_link 'trunk' is not the URDF's root link 'base_link'"),
         ({"foot_link": "{leg}_paw"}, r"no link 'lf_paw'; known: .*lf_foot"),
         ({"joints": ("{leg}_haa", "{leg}_hfe", "{leg}_kfe")}, r"no moving joint 'lf_haa'; known: .*lf_haa_joint"),

@@ -4,25 +4,30 @@ import math
 
 import numpy as np
 
-from quadlab.controllers.tracking.config import SwingConfig
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled
 from quadlab.planners.problem import GRAVITY
 
 
-def balance_correction(config: SwingConfig, velocity_error: Array, com_height: float, phase: float) -> Array:
+@compiled
+def balance_correction(
+    gain: float, speed_limit: float, velocity_error: Array, com_height: float, phase: float
+) -> Array:
     """Return the inverted-pendulum correction sqrt(h / g) (v - v_ref), blended in linearly over the swing, (2,) in [m].
 
     Args:
-        config: gain and the speed error at which the answer saturates.
+        gain: on the correction, dimensionless.
+        speed_limit: speed error at which the answer saturates in [m/s].
         velocity_error: measured minus desired CoM velocity, (2,) in [m/s].
         com_height: over the ground in [m]; a fallen robot may have it below, which gives no correction.
         phase: progress of the swing in [0, 1].
     """
-    speed = math.hypot(*velocity_error.tolist())
-    saturation = min(1.0, config.feedback_speed_limit_mps / max(speed, 1e-9))
-    return config.feedback * math.sqrt(max(com_height, 0.0) / GRAVITY) * min(phase, 1.0) * saturation * velocity_error
+    speed = math.hypot(velocity_error[0], velocity_error[1])
+    saturation = min(1.0, speed_limit / max(speed, 1e-9))
+    return gain * math.sqrt(max(com_height, 0.0) / GRAVITY) * min(phase, 1.0) * saturation * velocity_error
 
 
+@compiled
 def within_reach(foothold: Array, com: Array, yaw: float, nominal: Array, reach: tuple[float, float]) -> Array:
     """Return ``foothold`` moved into the box that the leg can reach.
 
@@ -33,9 +38,7 @@ def within_reach(foothold: Array, com: Array, yaw: float, nominal: Array, reach:
         reach: half size of the box in the heading frame, forward and sideways in [m].
     """
     cosine, sine = math.cos(yaw), math.sin(yaw)
-    (x, y), (com_x, com_y), (ahead, aside) = foothold.tolist(), com.tolist(), nominal.tolist()
-    forward = cosine * (x - com_x) + sine * (y - com_y)
-    left = -sine * (x - com_x) + cosine * (y - com_y)
-    forward = min(max(forward, ahead - reach[0]), ahead + reach[0])
-    left = min(max(left, aside - reach[1]), aside + reach[1])
-    return np.array([com_x + cosine * forward - sine * left, com_y + sine * forward + cosine * left])
+    x, y = foothold[0] - com[0], foothold[1] - com[1]
+    forward = min(max(cosine * x + sine * y, nominal[0] - reach[0]), nominal[0] + reach[0])
+    left = min(max(cosine * y - sine * x, nominal[1] - reach[1]), nominal[1] + reach[1])
+    return np.array([com[0] + cosine * forward - sine * left, com[1] + sine * forward + cosine * left])

@@ -1,25 +1,16 @@
-"""Foot motion in the air: a quintic from lift-off to foothold, refitted each tick (Gehring 2017, III-B)."""
+"""Foot motion in the air: a quintic from lift-off to foothold, refitted each tick (Gehring 2017, III-B).
 
-from dataclasses import dataclass
+A motion is position, velocity and acceleration of a contact point in the world, the rows of (3, 3) in [m], [m/s] and
+[m/s^2].
+"""
 
 import numpy as np
 
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled
 
 
-@dataclass(frozen=True)
-class FootMotion:
-    """Position, velocity and acceleration of a contact point in the world, (3,) each in [m], [m/s], [m/s^2]."""
-
-    position: Array
-    velocity: Array
-    acceleration: Array
-
-    def at_rate(self, rate: float) -> "FootMotion":
-        """Return the same place on the way, passed ``rate`` times as fast."""
-        return FootMotion(self.position, rate * self.velocity, rate**2 * self.acceleration)
-
-
+@compiled
 def quintic_blend(progress: float) -> tuple[float, float, float]:
     """Return the quintic Hermite blend from 0 to 1 with rest at both ends and its two derivatives by progress."""
     s = min(max(progress, 0.0), 1.0)
@@ -29,8 +20,9 @@ def quintic_blend(progress: float) -> tuple[float, float, float]:
     return value, first, second
 
 
-def swing_motion(lift_off: Array, foothold: Array, apex: float, phase: float, duration_s: float) -> FootMotion:
-    """Return the motion of a swinging foot.
+@compiled
+def swing_motion(lift_off: Array, foothold: Array, apex: float, phase: float, duration_s: float) -> Array:
+    """Return the motion of a swinging foot, (3, 3).
 
     Horizontally one quintic, vertically two that meet at rest at the apex in the middle of the swing.
 
@@ -41,28 +33,34 @@ def swing_motion(lift_off: Array, foothold: Array, apex: float, phase: float, du
         phase: progress of the swing in [0, 1].
         duration_s: of the swing in [s].
     """
-    along, along_rate, along_rate2 = quintic_blend(phase)
+    motion = np.empty((3, 3))
+    value, first, second = quintic_blend(phase)
+    for axis in range(2):
+        step = foothold[axis] - lift_off[axis]
+        motion[0, axis] = lift_off[axis] + value * step
+        motion[1, axis] = first / duration_s * step
+        motion[2, axis] = second / duration_s**2 * step
     top = max(lift_off[2], foothold[2]) + apex
     rising = phase < 0.5
     start, end = (lift_off[2], top) if rising else (top, foothold[2])
-    up, up_rate, up_rate2 = quintic_blend(2.0 * phase if rising else 2.0 * phase - 1.0)
-    step, rise = foothold - lift_off, end - start
-    position = lift_off + along * step
-    velocity = along_rate / duration_s * step
-    acceleration = along_rate2 / duration_s**2 * step
-    position[2] = start + up * rise
-    velocity[2] = up_rate * rise * 2.0 / duration_s
-    acceleration[2] = up_rate2 * rise * 4.0 / duration_s**2
-    return FootMotion(position, velocity, acceleration)
+    value, first, second = quintic_blend(2.0 * phase if rising else 2.0 * phase - 1.0)
+    motion[0, 2] = start + value * (end - start)
+    motion[1, 2] = first * (end - start) * 2.0 / duration_s
+    motion[2, 2] = second * (end - start) * 4.0 / duration_s**2
+    return motion
 
 
-def search_motion(start: Array, depth: float, speed: float) -> FootMotion:
-    """Return the motion of a foot that keeps x and y and goes down to find the ground.
+@compiled
+def search_motion(start: Array, depth: float, speed: float) -> Array:
+    """Return the motion, (3, 3), of a foot that keeps x and y and goes down to find the ground.
 
     Args:
         start: where the search began, (3,) in [m].
         depth: how far down by now in [m].
         speed: downward speed in [m/s].
     """
-    down = np.array([0.0, 0.0, 1.0])
-    return FootMotion(start - depth * down, -speed * down, np.zeros(3))
+    motion = np.zeros((3, 3))
+    motion[0] = start
+    motion[0, 2] -= depth
+    motion[1, 2] = -speed
+    return motion

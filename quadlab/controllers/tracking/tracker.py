@@ -161,7 +161,7 @@ class MotionTracker:
         yaw = sample.yaw + torso.yaw
         kind = self.config.alignment.swing
         footholds = torso if kind is self.config.alignment.torso else self._raw_alignment(kind, sample, kinematics)
-        motions = self._feet.motions(
+        feet = self._feet.motions(
             self._contacts.legs, plan_time_s, rate, footholds, com_velocity, kinematics, self._terrain
         )
         return ControlReference(
@@ -172,9 +172,9 @@ class MotionTracker:
             base_height=self._terrain.height_at(kinematics.base_position[:2]) + self._base_height,
             base_rotation=torso_rotation(yaw, self._terrain, self.config.torso.slope_following),
             base_angular_velocity=np.array([0.0, 0.0, rate * sample.yaw_rate]),
-            foot_positions=np.array([motion.position for motion in motions]),
-            foot_velocities=np.array([motion.velocity for motion in motions]),
-            foot_accelerations=np.array([motion.acceleration for motion in motions]),
+            foot_positions=feet[0],
+            foot_velocities=feet[1],
+            foot_accelerations=feet[2],
             stance=self._contacts.stance,
             normal_force_limits=np.array([self._force_limit(leg, plan_time_s) for leg in range(LEG_COUNT)]),
             torque_limits=self.robot.torque_limits,

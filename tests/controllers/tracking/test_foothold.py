@@ -7,47 +7,46 @@ import numpy as np
 import pytest
 from controller_cases import tracking_config
 
-from quadlab.controllers.tracking.config import SwingConfig
 from quadlab.controllers.tracking.foothold import balance_correction, within_reach
-from quadlab.geometry.rotations import rotation_2d
+from quadlab.geometry.rotations import Array, rotation_2d
 
 HEIGHT = 0.47  # [m]
 ERROR = np.array([0.2, -0.1])  # [m/s]
 COM, YAW, NOMINAL, REACH = np.array([1.0, -2.0]), 0.8, np.array([0.36, 0.2]), (0.25, 0.12)
 
 
-def swing_config(**changes: Any) -> SwingConfig:
-    return tracking_config(swing=changes).swing
+def capture(velocity_error: Array, height: float, phase: float, **changes: Any) -> Array:
+    config = tracking_config(swing=changes).swing
+    return balance_correction(config.feedback, config.feedback_speed_limit_mps, velocity_error, height, phase)
 
 
 def test_correction_is_the_capture_point_at_touch_down() -> None:
     """Stepping sqrt(h / g) v further brings an inverted pendulum with the speed error v to rest."""
-    correction = balance_correction(swing_config(feedback=1.0), ERROR, HEIGHT, 1.0)
+    correction = capture(ERROR, HEIGHT, 1.0, feedback=1.0)
     np.testing.assert_allclose(correction, ERROR * math.sqrt(HEIGHT / 9.81))
 
 
 @pytest.mark.parametrize("phase", [0.0, 0.25, 0.5, 1.0, 1.3])
 def test_correction_is_blended_in_over_the_swing(phase: float) -> None:
-    config = swing_config()
-    full = balance_correction(config, ERROR, HEIGHT, 1.0)
-    np.testing.assert_allclose(balance_correction(config, ERROR, HEIGHT, phase), min(phase, 1.0) * full)
+    full = capture(ERROR, HEIGHT, 1.0)
+    np.testing.assert_allclose(capture(ERROR, HEIGHT, phase), min(phase, 1.0) * full)
 
 
 def test_correction_saturates_and_keeps_its_direction() -> None:
-    config = swing_config(feedback_speed_limit_mps=0.5)
-    at_limit = balance_correction(config, 0.5 * ERROR / np.linalg.norm(ERROR), HEIGHT, 1.0)
-    np.testing.assert_allclose(balance_correction(config, 40.0 * ERROR, HEIGHT, 1.0), at_limit)
-    assert np.linalg.norm(balance_correction(config, ERROR, HEIGHT, 1.0)) < np.linalg.norm(at_limit)
+    limit = {"feedback_speed_limit_mps": 0.5}
+    at_limit = capture(0.5 * ERROR / np.linalg.norm(ERROR), HEIGHT, 1.0, **limit)
+    np.testing.assert_allclose(capture(40.0 * ERROR, HEIGHT, 1.0, **limit), at_limit)
+    assert np.linalg.norm(capture(ERROR, HEIGHT, 1.0, **limit)) < np.linalg.norm(at_limit)
 
 
 def test_no_error_or_no_gain_is_no_correction() -> None:
-    np.testing.assert_array_equal(balance_correction(swing_config(), np.zeros(2), HEIGHT, 1.0), 0.0)
-    np.testing.assert_array_equal(balance_correction(swing_config(feedback=0.0), ERROR, HEIGHT, 1.0), 0.0)
+    np.testing.assert_array_equal(capture(np.zeros(2), HEIGHT, 1.0), 0.0)
+    np.testing.assert_array_equal(capture(ERROR, HEIGHT, 1.0, feedback=0.0), 0.0)
 
 
 def test_robot_that_lies_below_the_ground_plane_gets_no_correction() -> None:
     """A robot on its back has feet above its centre of mass: an outcome to be reported, not an error."""
-    np.testing.assert_array_equal(balance_correction(swing_config(), ERROR, -0.1, 1.0), 0.0)
+    np.testing.assert_array_equal(capture(ERROR, -0.1, 1.0), 0.0)
 
 
 @pytest.mark.parametrize("share", [(0.0, 0.0), (0.9, -0.9), (-1.0, 1.0)])

@@ -5,10 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from controller_cases import moved_state, uniform_plan
-from tracking_cases import PERIOD, TROT, track, tracker_for
+from controller_cases import moved_state, tracking_config, uniform_plan
+from tracking_cases import PERIOD, SWING, TROT, track, tracker_for
 
 from quadlab.controllers.telemetry import LegMode
+from quadlab.controllers.tracking.alignment import identity_alignment
+from quadlab.controllers.tracking.contact_machine import start_contacts
+from quadlab.controllers.tracking.feet import FootPlanner
+from quadlab.estimation.terrain_plane import fit_plane
 from quadlab.geometry.rotations import Array
 from quadlab.robots.model import RobotModel
 from quadlab.robots.state import RobotState
@@ -39,6 +43,20 @@ def test_foot_passes_its_apex_in_the_middle_of_the_swing(robot: RobotModel) -> N
     middle = track(tracker, robot.nominal_state(), 0.6, swing.start_s + 0.5 * swing.duration_s).reference
     assert middle.foot_positions[0, 2] == pytest.approx(0.2 * standing_height, rel=1e-3)
     assert abs(middle.foot_velocities[0, 2]) < 0.02
+
+
+def test_slower_plan_is_the_same_way_with_the_derivatives_of_a_slower_clock(robot: RobotModel) -> None:
+    kinematics, plan = robot.kinematics(robot.nominal_state()), uniform_plan(robot, TROT, (0.1, 0.0))
+    feet = FootPlanner(tracking_config().swing, 0.5, 0.5, robot.nominal_feet_in_com, plan.footholds)
+    contacts = start_contacts(tracking_config().contact, TROT, 1.0, kinematics.foot_positions)
+    contacts.update(SWING, PERIOD, kinematics.foot_positions, np.ones(4))
+    terrain = fit_plane(kinematics.foot_positions, np.zeros(2))
+    place = (identity_alignment(), np.zeros(2), kinematics, terrain)
+    usual, slow = (feet.motions(contacts.legs, SWING + 0.1, rate, *place) for rate in (1.0, 0.4))
+    assert np.isfinite(usual[:, [0, 3]]).all()
+    np.testing.assert_allclose(slow[0], usual[0])
+    np.testing.assert_allclose(slow[1], 0.4 * usual[1])
+    np.testing.assert_allclose(slow[2], 0.4**2 * usual[2])
 
 
 def test_foothold_goes_with_the_displaced_base(robot: RobotModel) -> None:
