@@ -7,6 +7,7 @@ import numpy as np
 from quadlab.configuration import NonNegative, Positive, StrictModel
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
+from quadlab.jit import compiled_entry
 from quadlab.robots.legs import LEG_COUNT
 
 
@@ -46,10 +47,38 @@ class ContactDetector:
 
     def update(self, normal_forces: Array) -> BoolArray:
         """Return which feet stand, (4,), after one more period with ``normal_forces``, (4,) in [N]."""
-        share = self.period_s / (self.config.time_constant_s + self.period_s)
-        self._force = self._force + share * (normal_forces - self._force)
-        threshold = np.where(self.touches, self.config.lift_off_share, self.config.touch_down_share)
-        self.touches = self._force > threshold * self.weight
-        self._touched_s = np.where(self.touches, self._touched_s + self.period_s, 0.0)
-        standing: BoolArray = self._touched_s > self.config.settling_s
+        config = self.config
+        self._force, self.touches, self._touched_s = _sense(
+            self._force + self._share * (normal_forces - self._force),
+            self.touches,
+            self._touched_s,
+            self.period_s,
+            (config.touch_down_share * self.weight, config.lift_off_share * self.weight),
+        )
+        standing: BoolArray = self._touched_s > config.settling_s
         return standing
+
+    @property
+    def _share(self) -> float:
+        """Of a change of the force that passes the filter in one period."""
+        return self.period_s / (self.config.time_constant_s + self.period_s)
+
+
+@compiled_entry
+def _sense(
+    forces: Array, touches: BoolArray, touched_s: Array, period_s: float, thresholds: tuple[float, float]
+) -> tuple[Array, BoolArray, Array]:
+    """Return forces, contacts and how long they have lasted in [s], (4,) each.
+
+    Args:
+        forces: filtered normal forces, (4,) in [N].
+        touches, touched_s: contacts and their duration before, (4,).
+        period_s: time since then in [s].
+        thresholds: forces that start and that keep a contact in [N].
+    """
+    now, lasted = np.empty_like(touches), np.zeros_like(touched_s)
+    for leg in range(len(forces)):
+        now[leg] = forces[leg] > (thresholds[1] if touches[leg] else thresholds[0])
+        if now[leg]:
+            lasted[leg] = touched_s[leg] + period_s
+    return forces, now, lasted

@@ -1,15 +1,25 @@
 """The filter's correction by the legs: where the base is relative to standing feet (Bloesch 2012, II-D and III-E)."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from quadlab.configuration import NonNegative, Positive, StrictModel
-from quadlab.estimation.error_state import ERROR_SIZE, FEET, POSITION, FilterState, box_plus, foot_block
+from quadlab.estimation.error_state import (
+    ERROR_SIZE,
+    FEET,
+    POSITION,
+    FilterArrays,
+    FilterState,
+    foot_block,
+    moved_by,
+)
 from quadlab.estimation.leg_kinematics import LegKinematics
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
-from quadlab.jit import compiled_entry
+from quadlab.jit import compiled_entry, source_fingerprint
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.pinocchio_model import IndexArray
 
@@ -92,8 +102,22 @@ def correct(state: FilterState, covariance: Array, innovations: FootInnovations,
     """
     if not feet.any():
         return Correction(state, covariance)
-    error, corrected, squared = _correct(covariance, innovations.values, innovations.noise, np.flatnonzero(feet))
-    return Correction(box_plus(state, error), corrected, squared)
+    arrays, corrected, squared = _correct(state.arrays, covariance, innovations.values, innovations.noise, feet)
+    return Correction(FilterState(*arrays), corrected, squared)
+
+
+def choose_feet(
+    distances: Array, measured: BoolArray, refusals: IndexArray, config: LegMeasurementConfig
+) -> tuple[BoolArray, IndexArray]:
+    """Return which feet are used, (4,) flags, and how often in a row each was refused by now, (4,).
+
+    Args:
+        distances: squared Mahalanobis distances, (4,).
+        measured: feet that stand, (4,) flags.
+        refusals: in a row up to the tick before, (4,).
+        config: gate, and when all standing feet are used in spite of it.
+    """
+    return _choose_feet(distances, measured, refusals, config.gate, config.blind_ticks)
 
 
 def place_foot(
@@ -145,25 +169,59 @@ def _foot_innovations(
 
 
 @compiled_entry
-def _correct(covariance: Array, values: Array, noise: Array, feet: IndexArray) -> tuple[Array, Array, float]:
-    """Return the error (27,), the covariance (27, 27) and e^T S^-1 e of ``correct`` for the numbers of the ``feet``."""
-    size = 3 * len(feet)
-    crossed, spread, innovation = np.empty((size, ERROR_SIZE)), np.zeros((size, size)), np.empty(size)
-    for row, leg in enumerate(feet):
-        rows, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
-        innovation[rows] = values[leg]
-        spread[rows, rows] = noise[leg]
-        crossed[rows] = covariance[foot : foot + 3] - covariance[:3]
-    noise_of_feet = spread.copy()
-    for row, leg in enumerate(feet):
-        columns, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
-        spread[:, columns] += crossed[:, foot : foot + 3] - crossed[:, :3]
-    gain = np.linalg.solve(spread, crossed).T.copy()
-    left = np.eye(ERROR_SIZE)
-    for row, leg in enumerate(feet):
-        columns, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
-        left[:, :3] += gain[:, columns]
-        left[:, foot : foot + 3] -= gain[:, columns]
-    joseph = left @ covariance @ left.T + gain @ noise_of_feet @ gain.T
-    squared = float(innovation @ np.linalg.solve(spread, innovation))
-    return gain @ innovation, 0.5 * (joseph + joseph.T), squared
+def _choose_feet(
+    distances: Array, measured: BoolArray, refusals: IndexArray, gate: float, blind_ticks: int
+) -> tuple[BoolArray, IndexArray]:
+    """Return flags and refusals of ``choose_feet``."""
+    used, blind = measured & (distances <= gate), True
+    for leg in range(len(measured)):
+        if used[leg] or (measured[leg] and refusals[leg] < blind_ticks):
+            blind = False
+    if blind:
+        used = measured.copy()
+    counted = np.zeros_like(refusals)
+    for leg in range(len(measured)):
+        if measured[leg] and not used[leg]:
+            counted[leg] = refusals[leg] + 1
+    return used, counted
+
+
+def _compile_correction(fingerprint: int) -> Callable[..., tuple[FilterArrays, Array, float]]:
+    @compiled_entry
+    def corrected(
+        state: FilterArrays, covariance: Array, values: Array, noise: Array, used: BoolArray
+    ) -> tuple[FilterArrays, Array, float]:
+        """Return the state's arrays, the covariance (27, 27) and e^T S^-1 e of ``correct``."""
+        _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
+        feet = np.flatnonzero(used)
+        size = 3 * len(feet)
+        right, spread, innovation = np.empty((size, ERROR_SIZE + 1)), np.zeros((size, size)), np.empty(size)
+        for row, leg in enumerate(feet):
+            rows, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
+            innovation[rows] = values[leg]
+            spread[rows, rows] = noise[leg]
+            right[rows, :ERROR_SIZE] = covariance[foot : foot + 3] - covariance[:3]
+            right[rows, ERROR_SIZE] = values[leg]
+        noise_of_feet = spread.copy()
+        for row, leg in enumerate(feet):
+            columns, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
+            spread[:, columns] += right[:, foot : foot + 3] - right[:, :3]
+        solved = np.linalg.solve(spread, right)
+        gain = solved[:, :ERROR_SIZE].T.copy()
+        left = np.eye(ERROR_SIZE)
+        for row, leg in enumerate(feet):
+            columns, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
+            left[:, :3] += gain[:, columns]
+            left[:, foot : foot + 3] -= gain[:, columns]
+        joseph = left @ covariance @ left.T + gain @ noise_of_feet @ gain.T
+        position, velocity, rotation, centers, accelerometer, gyro = state
+        moved = moved_by(gain @ innovation, position, velocity, rotation, centers, accelerometer, gyro)
+        squared = 0.0
+        for row in range(size):
+            squared += innovation[row] * solved[row, ERROR_SIZE]
+        return moved, 0.5 * (joseph + joseph.T), squared
+
+    return corrected
+
+
+_correct = _compile_correction(source_fingerprint(Path(__file__).parent))

@@ -10,7 +10,14 @@ import numpy as np
 
 from quadlab.configuration import NonNegative, StrictModel, register
 from quadlab.estimation.contact_detection import ContactDetectionConfig, ContactDetector
-from quadlab.estimation.correction import Correction, LegMeasurementConfig, correct, foot_innovations, place_foot
+from quadlab.estimation.correction import (
+    Correction,
+    LegMeasurementConfig,
+    choose_feet,
+    correct,
+    foot_innovations,
+    place_foot,
+)
 from quadlab.estimation.error_state import (
     ACCELEROMETER_BIAS,
     ERROR_SIZE,
@@ -23,13 +30,7 @@ from quadlab.estimation.error_state import (
 )
 from quadlab.estimation.estimate import Estimate, FilterReport
 from quadlab.estimation.leg_kinematics import LegKinematics, LegModel
-from quadlab.estimation.prediction import (
-    ProcessNoiseConfig,
-    error_dynamics,
-    inertial_step,
-    predict_state,
-    process_noise,
-)
+from quadlab.estimation.prediction import ProcessNoiseConfig, predict, propagate
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array, matrix_to_quat
 from quadlab.planners.problem import GRAVITY
@@ -148,11 +149,11 @@ class ExtendedKalmanFilter:
 
     def _predict(self, reading: SensorReading, legs: LegKinematics) -> None:
         spins = 0.5 * (self._foot_spins + legs.foot_spins)
-        step = inertial_step(self.state, reading, spins, self._period_s)
-        self.state = predict_state(self.state, step, self._foot_radius)
-        dynamics = error_dynamics(self.state, step, self._foot_radius)
-        noise = process_noise(dynamics, self.config.process_noise, self._standing, self._period_s)
-        self.covariance = dynamics @ self.covariance @ dynamics.T + noise
+        prediction = predict(self.state, reading, spins, self._period_s, self._foot_radius)
+        self.state = prediction.state
+        self.covariance = propagate(
+            self.covariance, prediction.dynamics, self.config.process_noise, self._standing, self._period_s
+        )
 
     def _foot_forces(self, reading: SensorReading, legs: LegKinematics) -> Array:
         """Return the forces under the feet in world components, (4, 3) in [N]."""
@@ -175,14 +176,10 @@ class ExtendedKalmanFilter:
         config = self.config.leg_measurement
         innovations = foot_innovations(self.state, self.covariance, legs, config)
         measured = self._standing & ~landed
-        used = measured & (innovations.distances <= config.gate)
-        if not used.any() and bool((self._refusals[measured] >= config.blind_ticks).all()):
-            used = measured
-        refused = measured & ~used
+        used, self._refusals = choose_feet(innovations.distances, measured, self._refusals, config)
         correction = correct(self.state, self.covariance, innovations, used)
         self.state, self.covariance = correction.state, correction.covariance
-        self._outliers += int(refused.sum())
-        self._refusals = np.where(refused, self._refusals + 1, 0)
+        self._outliers += int(np.count_nonzero(self._refusals))
         for leg in np.flatnonzero(landed | (self._refusals > config.patience_ticks)).tolist():
             noise = innovations.noise[leg]
             self.state, self.covariance = place_foot(self.state, self.covariance, legs, noise, leg)
@@ -205,7 +202,7 @@ class ExtendedKalmanFilter:
         )
 
     def _report(self, correction: Correction, used: BoolArray, update_us: float) -> FilterReport:
-        deviations = np.sqrt(np.diag(self.covariance))
+        deviations = np.sqrt(self.covariance.diagonal()[: ORIENTATION.stop])
         return FilterReport(
             accelerometer_bias=self.state.accelerometer_bias,
             gyro_bias=self.state.gyro_bias,

@@ -15,14 +15,15 @@ linearisation at changing estimates would make the heading seem observable, whic
 the vertical) are the same at every estimate, so no constraint is needed.
 """
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
-import pinocchio as pin
 
 from quadlab.geometry.rotations import Array, rotation_log
-from quadlab.robots.legs import LEG_COUNT
+from quadlab.jit import compiled, compiled_entry
 
 POSITION = slice(0, 3)
 VELOCITY = slice(3, 6)
@@ -33,10 +34,58 @@ GYRO_BIAS = slice(24, 27)
 ERROR_SIZE = 27
 """Blocks of the error."""
 
+FilterArrays: TypeAlias = tuple[Array, Array, Array, Array, Array, Array]
+"""The attributes of ``FilterState`` in their order."""
+
 
 def foot_block(leg: int) -> slice:
     """Return the block of foot number ``leg``."""
     return slice(FEET.start + 3 * leg, FEET.start + 3 * (leg + 1))
+
+
+_VELOCITY, _ORIENTATION, _FEET = VELOCITY.start, ORIENTATION.start, FEET.start
+_ACCELEROMETER, _GYRO = ACCELEROMETER_BIAS.start, GYRO_BIAS.start
+
+
+@compiled
+def rotation_exp(vector: Array) -> Array:
+    """Return exp(vector), (3, 3), of a rotation vector, (3,) in [rad], by Rodrigues' formula."""
+    x, y, z = vector[0], vector[1], vector[2]
+    squared = x * x + y * y + z * z
+    angle = math.sqrt(squared)
+    small = squared < 1e-10
+    first = 1.0 - squared / 6.0 if small else math.sin(angle) / angle
+    second = 0.5 - squared / 24.0 if small else (1.0 - math.cos(angle)) / squared
+    rotation = np.empty((3, 3))
+    rotation[0, 0], rotation[1, 1], rotation[2, 2] = (
+        1.0 - second * (y * y + z * z),
+        1.0 - second * (x * x + z * z),
+        1.0 - second * (x * x + y * y),
+    )
+    rotation[0, 1], rotation[1, 0] = second * x * y - first * z, second * x * y + first * z
+    rotation[0, 2], rotation[2, 0] = second * x * z + first * y, second * x * z - first * y
+    rotation[1, 2], rotation[2, 1] = second * y * z - first * x, second * y * z + first * x
+    return rotation
+
+
+@compiled_entry
+def moved_by(
+    error: Array, position: Array, velocity: Array, rotation: Array, feet: Array, accelerometer: Array, gyro: Array
+) -> FilterArrays:
+    """Return the arrays of the state that differs from the given one by ``error``, (27,); see ``box_plus``."""
+    turn = rotation_exp(error[_ORIENTATION:_FEET])
+    moved_feet = np.empty_like(feet)
+    for leg in range(len(feet)):
+        first = _FEET + 3 * leg
+        moved_feet[leg] = turn @ feet[leg] + error[first : first + 3]
+    return (
+        turn @ position + error[:_VELOCITY],
+        turn @ velocity + error[_VELOCITY:_ORIENTATION],
+        turn @ rotation,
+        moved_feet,
+        accelerometer + error[_ACCELEROMETER:_GYRO],
+        gyro + error[_GYRO:],
+    )
 
 
 @dataclass(frozen=True)
@@ -59,6 +108,11 @@ class FilterState:
     accelerometer_bias: Array
     gyro_bias: Array
 
+    @property
+    def arrays(self) -> FilterArrays:
+        """The attributes in their order, as compiled functions take and return them."""
+        return self.position, self.velocity, self.rotation, self.feet, self.accelerometer_bias, self.gyro_bias
+
     @cached_property
     def feet_from_base(self) -> Array:
         """p_i - r, (4, 3) in [m]."""
@@ -67,15 +121,7 @@ class FilterState:
 
 def box_plus(state: FilterState, error: Array) -> FilterState:
     """Return the state that differs from ``state`` by ``error``, (27,)."""
-    turn = pin.exp3(error[ORIENTATION])
-    return FilterState(
-        position=turn @ state.position + error[POSITION],
-        velocity=turn @ state.velocity + error[VELOCITY],
-        rotation=turn @ state.rotation,
-        feet=state.feet @ turn.T + error[FEET].reshape(LEG_COUNT, 3),
-        accelerometer_bias=state.accelerometer_bias + error[ACCELEROMETER_BIAS],
-        gyro_bias=state.gyro_bias + error[GYRO_BIAS],
-    )
+    return FilterState(*moved_by(error, *state.arrays))
 
 
 def box_minus(state: FilterState, reference: FilterState) -> Array:

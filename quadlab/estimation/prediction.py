@@ -1,10 +1,11 @@
 """The filter's step from one reading of the inertial unit to the next (Bloesch 2012, III-C and III-D)."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
-import pinocchio as pin
 
 from quadlab.configuration import Positive, StrictModel
 from quadlab.estimation.error_state import (
@@ -14,11 +15,13 @@ from quadlab.estimation.error_state import (
     GYRO_BIAS,
     ORIENTATION,
     VELOCITY,
+    FilterArrays,
     FilterState,
+    rotation_exp,
 )
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array, skew
-from quadlab.jit import compiled_entry, inlined
+from quadlab.jit import compiled, compiled_entry, inlined, source_fingerprint
 from quadlab.planners.problem import GRAVITY
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.sensing import SensorReading
@@ -50,102 +53,66 @@ class ProcessNoiseConfig(StrictModel):
 
 
 @dataclass(frozen=True)
-class InertialStep:
-    """The motion of the base during one period, by the inertial unit without its biases.
+class Prediction:
+    """The outcome of one inertial step.
 
     Attributes:
-        period_s: T in [s].
-        rotation_change: exp(T w), (3, 3).
-        mean_rotation: R exp(T w / 2), base to world in the middle of the period, (3, 3).
-        angular_velocity_in_world: w in world components, (3,) in [rad/s].
-        specific_force_in_world: f in world components, (3,) in [m/s^2].
-        foot_angular_velocities_in_world: of the feet (shanks), (4, 3) in [rad/s].
+        state: one period later.
+        dynamics: Jacobian F, (27, 27), of the error after the step by the error before it, at zero error.
     """
 
-    period_s: float
-    rotation_change: Array
-    mean_rotation: Array
-    specific_force_in_world: Array
-    foot_angular_velocities_in_world: Array
+    state: FilterState
+    dynamics: Array
 
 
-def inertial_step(state: FilterState, reading: SensorReading, foot_spins: Array, period_s: float) -> InertialStep:
-    """Return the motion that ``reading`` implies.
-
-    Args:
-        state: at the start of the period.
-        reading: at its end; its rates are means over the period.
-        foot_spins: mean angular velocity of each foot relative to the base, in base axes, (4, 3) in [rad/s].
-        period_s: in [s].
-    """
-    angular_velocity = reading.gyro - state.gyro_bias
-    mean_rotation = state.rotation @ pin.exp3(0.5 * period_s * angular_velocity)
-    return InertialStep(
-        period_s=period_s,
-        rotation_change=pin.exp3(period_s * angular_velocity),
-        mean_rotation=mean_rotation,
-        specific_force_in_world=mean_rotation @ (reading.accelerometer - state.accelerometer_bias),
-        foot_angular_velocities_in_world=(angular_velocity + foot_spins) @ mean_rotation.T,
-    )
-
-
-def predict_state(state: FilterState, step: InertialStep, foot_radius: float) -> FilterState:
-    """Return the state one period T later.
+def predict(
+    state: FilterState, reading: SensorReading, foot_spins: Array, period_s: float, foot_radius: float
+) -> Prediction:
+    """Return the state one period T later and how its error follows from the error before.
 
         r+ = r + T v + T^2 / 2 (f + g)     v+ = v + T (f + g)     R+ = R exp(T w)     p_i+ = p_i + T Omega_i x rho e_z
 
-    with the specific force f in world components. Deviation from Bloesch 2012, whose feet are points: a spherical foot
-    of radius rho rolls on the (level) ground with the angular velocity Omega_i of its shank, by about 1 cm in a stance.
-    """
-    period_s = step.period_s
-    acceleration = step.specific_force_in_world + _GRAVITY
-    return FilterState(
-        position=state.position + period_s * state.velocity + 0.5 * period_s**2 * acceleration,
-        velocity=state.velocity + period_s * acceleration,
-        rotation=state.rotation @ step.rotation_change,
-        feet=state.feet + _rolling(step, foot_radius),
-        accelerometer_bias=state.accelerometer_bias,
-        gyro_bias=state.gyro_bias,
-    )
+    with the angular velocity w and the specific force f without their biases, f turned to world components by the
+    mean rotation R_m = R exp(T w / 2). Deviation from Bloesch 2012, whose feet are points: a spherical foot of radius
+    rho rolls on the (level) ground with the angular velocity Omega_i of its shank, by about 1 cm in a stance.
 
-
-def error_dynamics(predicted: FilterState, step: InertialStep, foot_radius: float) -> Array:
-    """Return the Jacobian F, (27, 27), of the error after the step by the error before it, at zero error.
-
-    With the mean rotation R_m and B = R_m db_w, to first order,
+    To first order, with B = R_m db_w and u_i = T Omega_i x rho e_z, the errors follow
 
         dtheta+ = dtheta - T B
         dv+     = dv + T g x dtheta - T R_m db_f - T v+ x B + T^2/2 f x B
         dr+     = dr + T dv + T^2/2 (g x dtheta - R_m db_f) - T r+ x B + T^3/4 f x B
         dp_i+   = dp_i + (T rho e_z x (Omega_i x .) + u_i x .) dtheta + T rho e_z x B - T p_i+ x B
 
-    where u_i = T Omega_i x rho e_z; terms of T^2 rho are left out.
+    where terms of T^2 rho are left out.
+
+    Args:
+        state: at the start of the period.
+        reading: at its end; its rates are means over the period.
+        foot_spins: mean angular velocity of each foot relative to the base, in base axes, (4, 3) in [rad/s].
+        period_s: T in [s].
+        foot_radius: rho in [m].
     """
-    return _error_dynamics(
-        step.period_s,
-        step.mean_rotation,
-        step.specific_force_in_world,
-        step.foot_angular_velocities_in_world,
-        foot_radius,
-        predicted.position,
-        predicted.velocity,
-        predicted.feet,
-    )
+    arrays, dynamics = _predict(*state.arrays, reading.gyro, reading.accelerometer, foot_spins, period_s, foot_radius)
+    return Prediction(FilterState(*arrays), dynamics)
 
 
-def process_noise(dynamics: Array, config: ProcessNoiseConfig, standing: BoolArray, period_s: float) -> Array:
-    """Return the covariance Q, (27, 27), of the error that one period adds.
+def propagate(
+    covariance: Array, dynamics: Array, config: ProcessNoiseConfig, standing: BoolArray, period_s: float
+) -> Array:
+    """Return F P F^T + Q, (27, 27): the covariance after one period.
 
     The noise of gyroscope and accelerometer enters where their biases do. Q is the first-order discretisation of
     Bloesch 2012, III-D.
 
     Args:
+        covariance: P, (27, 27).
         dynamics: F of the period.
         config: densities.
         standing: feet whose slip counts, (4,).
         period_s: in [s].
     """
-    return _process_noise(
+    return _propagate(
+        covariance,
         dynamics,
         standing,
         period_s,
@@ -155,12 +122,6 @@ def process_noise(dynamics: Array, config: ProcessNoiseConfig, standing: BoolArr
         config.accelerometer_bias_mps3_per_sqrt_hz,
         config.gyro_bias_radps2_per_sqrt_hz,
     )
-
-
-def _rolling(step: InertialStep, foot_radius: float) -> Array:
-    """Return the way of each sphere's centre, T Omega_i x rho e_z, (4, 3) in [m]."""
-    way: Array = -step.period_s * foot_radius * step.foot_angular_velocities_in_world @ _CROSS_UP.T
-    return way
 
 
 @inlined
@@ -173,7 +134,7 @@ def _cross(vector: Array) -> Array:
     return matrix
 
 
-@compiled_entry
+@compiled
 def _error_dynamics(
     period_s: float,
     rotation: Array,
@@ -184,7 +145,7 @@ def _error_dynamics(
     velocity: Array,
     feet: Array,
 ) -> Array:
-    """Return F of ``error_dynamics``; ``foot_spins`` are the angular velocities Omega_i of the feet."""
+    """Return F of ``predict``; arguments in world components, position, velocity and feet after the step."""
     jacobian = np.eye(ERROR_SIZE)
     for axis in range(3):
         jacobian[axis, _VELOCITY + axis] = period_s
@@ -208,8 +169,50 @@ def _error_dynamics(
     return jacobian
 
 
+def _compile_prediction(fingerprint: int) -> Callable[..., tuple[FilterArrays, Array]]:
+    @compiled_entry
+    def step(
+        position: Array,
+        velocity: Array,
+        rotation: Array,
+        feet: Array,
+        accelerometer_bias: Array,
+        gyro_bias: Array,
+        gyro: Array,
+        accelerometer: Array,
+        foot_spins: Array,
+        period_s: float,
+        foot_radius: float,
+    ) -> tuple[FilterArrays, Array]:
+        """Return the arrays of the state after the step and F; see ``predict``."""
+        _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
+        angular_velocity = gyro - gyro_bias
+        mean_rotation = rotation @ rotation_exp(0.5 * period_s * angular_velocity)
+        force = mean_rotation @ (accelerometer - accelerometer_bias)
+        spins, moved_feet = np.empty_like(feet), feet.copy()
+        for leg in range(len(feet)):
+            spins[leg] = mean_rotation @ (angular_velocity + foot_spins[leg])
+            moved_feet[leg, 0] += period_s * foot_radius * spins[leg, 1]  # Omega x rho e_z
+            moved_feet[leg, 1] -= period_s * foot_radius * spins[leg, 0]
+        acceleration = force + _GRAVITY
+        moved = position + period_s * velocity + 0.5 * period_s**2 * acceleration
+        later_velocity = velocity + period_s * acceleration
+        turned = rotation @ rotation_exp(period_s * angular_velocity)
+        dynamics = _error_dynamics(
+            period_s, mean_rotation, force, spins, foot_radius, moved, later_velocity, moved_feet
+        )
+        arrays = (moved, later_velocity, turned, moved_feet, accelerometer_bias.copy(), gyro_bias.copy())
+        return arrays, dynamics
+
+    return step
+
+
+_predict = _compile_prediction(source_fingerprint(Path(__file__).parent))
+
+
 @compiled_entry
-def _process_noise(
+def _propagate(
+    covariance: Array,
     dynamics: Array,
     standing: BoolArray,
     period_s: float,
@@ -219,16 +222,16 @@ def _process_noise(
     accelerometer_bias: float,
     gyro_bias: float,
 ) -> Array:
-    """Return Q of ``process_noise`` for the densities of ``ProcessNoiseConfig``."""
+    """Return F P F^T + Q of ``propagate`` for the densities of ``ProcessNoiseConfig``."""
     inputs = dynamics[:_ACCELEROMETER, _ACCELEROMETER:].copy()
     inputs[:, :3] *= accelerometer / math.sqrt(period_s)
     inputs[:, 3:] *= gyro / math.sqrt(period_s)
-    noise = np.zeros((ERROR_SIZE, ERROR_SIZE))
-    noise[:_ACCELEROMETER, :_ACCELEROMETER] = inputs @ inputs.T
+    later = dynamics @ covariance @ dynamics.T
+    later[:_ACCELEROMETER, :_ACCELEROMETER] += inputs @ inputs.T
     for axis in range(3):
         for leg in range(LEG_COUNT):
             if standing[leg]:
-                noise[_FEET + 3 * leg + axis, _FEET + 3 * leg + axis] += period_s * foot**2
-        noise[_ACCELEROMETER + axis, _ACCELEROMETER + axis] = period_s * accelerometer_bias**2
-        noise[_GYRO + axis, _GYRO + axis] = period_s * gyro_bias**2
-    return noise
+                later[_FEET + 3 * leg + axis, _FEET + 3 * leg + axis] += period_s * foot**2
+        later[_ACCELEROMETER + axis, _ACCELEROMETER + axis] += period_s * accelerometer_bias**2
+        later[_GYRO + axis, _GYRO + axis] += period_s * gyro_bias**2
+    return later

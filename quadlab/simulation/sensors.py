@@ -16,6 +16,10 @@ from quadlab.simulation.conventions import ACCELEROMETER, GYROSCOPE
 _SENSOR_STREAM = 1
 """Key of the sensors' random numbers; those of the initial state are drawn from the bare seed."""
 
+_GYRO_WALK, _ACCELEROMETER_WALK, _GYRO, _ACCELEROMETER = (slice(3 * i, 3 * i + 3) for i in range(4))
+_POSITIONS, _VELOCITIES, _TORQUES, _FORCES = (slice(12 * i, 12 * i + 12) for i in range(1, 5))
+"""Where the noise of each sensor stands among the random numbers of a reading, (60,)."""
+
 
 @dataclass(frozen=True)
 class ImuSample:
@@ -80,7 +84,6 @@ class Sensors:
 
     def __init__(self, config: SensorConfig | None, period_s: float, seed: int) -> None:
         self.config = config
-        self._period_s = period_s
         self._random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(_SENSOR_STREAM,)))
         self._delayed: deque[SensorReading] = deque()
         if config is None:
@@ -88,6 +91,7 @@ class Sensors:
         self.gyro_bias = config.imu.gyro_bias_radps * self._random.standard_normal(3)
         self.accelerometer_bias = config.imu.accelerometer_bias_mps2 * self._random.standard_normal(3)
         self.joint_offsets = config.joints.position_offset_rad * self._random.standard_normal(JOINT_COUNT)
+        self._deviations = _deviations(config, period_s)
 
     def read(self, state: RobotState, imu: ImuSample, command: JointCommand) -> SensorReading:
         """Return what the sensors say at the end of a control period.
@@ -106,40 +110,50 @@ class Sensors:
             joint_torques=command.torques,
             foot_forces_in_base=state.foot_forces_in_world @ state.rotation_base_to_world,
         )
-        return true if self.config is None else self._late(self._disturbed(true, self.config), self.config)
+        return true if self.config is None else self._late(self._disturbed(true), self.config)
 
-    def _disturbed(self, true: SensorReading, config: SensorConfig) -> SensorReading:
-        random, joints = self._random, config.joints
-        self._walk(config)
-        per_root_s = 1.0 / np.sqrt(
-            self._period_s
-        )  # a mean over T of noise with density d has the deviation d / sqrt(T)
-        gyro_noise = config.imu.gyro_noise_radps_per_sqrt_hz * per_root_s
-        force_noise = config.imu.accelerometer_noise_mps2_per_sqrt_hz * per_root_s
-        return replace(
-            true,
-            gyro=true.gyro + self.gyro_bias + gyro_noise * random.standard_normal(3),
-            accelerometer=true.accelerometer + self.accelerometer_bias + force_noise * random.standard_normal(3),
-            joint_positions=true.joint_positions
-            + self.joint_offsets
-            + joints.position_noise_rad * random.standard_normal(JOINT_COUNT),
-            joint_velocities=true.joint_velocities + joints.velocity_noise_radps * random.standard_normal(JOINT_COUNT),
-            joint_torques=true.joint_torques + joints.torque_noise_nm * random.standard_normal(JOINT_COUNT),
-            foot_forces_in_base=true.foot_forces_in_base
-            + config.foot_force_noise_n * random.standard_normal((LEG_COUNT, 3)),
+    def _disturbed(self, true: SensorReading) -> SensorReading:
+        """Add noise, biases and offsets; the biases of the inertial unit walk on by one period."""
+        noise = self._deviations * self._random.standard_normal(len(self._deviations))
+        self.gyro_bias = self.gyro_bias + noise[_GYRO_WALK]
+        self.accelerometer_bias = self.accelerometer_bias + noise[_ACCELEROMETER_WALK]
+        return SensorReading(
+            time_s=true.time_s,
+            gyro=true.gyro + self.gyro_bias + noise[_GYRO],
+            accelerometer=true.accelerometer + self.accelerometer_bias + noise[_ACCELEROMETER],
+            joint_positions=true.joint_positions + self.joint_offsets + noise[_POSITIONS],
+            joint_velocities=true.joint_velocities + noise[_VELOCITIES],
+            joint_torques=true.joint_torques + noise[_TORQUES],
+            foot_forces_in_base=true.foot_forces_in_base + noise[_FORCES].reshape(LEG_COUNT, 3),
         )
-
-    def _walk(self, config: SensorConfig) -> None:
-        """Let the biases of the inertial unit walk on by one period."""
-        root_s = np.sqrt(self._period_s)
-        gyro_step = config.imu.gyro_bias_walk_radps2_per_sqrt_hz * root_s
-        force_step = config.imu.accelerometer_bias_walk_mps3_per_sqrt_hz * root_s
-        self.gyro_bias = self.gyro_bias + gyro_step * self._random.standard_normal(3)
-        self.accelerometer_bias = self.accelerometer_bias + force_step * self._random.standard_normal(3)
 
     def _late(self, reading: SensorReading, config: SensorConfig) -> SensorReading:
         """Return the reading of ``latency_ticks`` periods ago, with the time of its arrival; at first the first one."""
         self._delayed.append(reading)
         if len(self._delayed) > config.latency_ticks + 1:
             self._delayed.popleft()
+        if self._delayed[0] is reading:
+            return reading
         return replace(self._delayed[0], time_s=reading.time_s)
+
+
+def _deviations(config: SensorConfig, period_s: float) -> Array:
+    """Return the standard deviations of the random numbers of a reading, (60,).
+
+    A mean over T of noise with density d has the deviation d / sqrt(T); a bias walks by d sqrt(T) in T.
+    """
+    imu, joints, root_s = config.imu, config.joints, np.sqrt(period_s)
+    of_blocks = (
+        (_GYRO_WALK, imu.gyro_bias_walk_radps2_per_sqrt_hz * root_s),
+        (_ACCELEROMETER_WALK, imu.accelerometer_bias_walk_mps3_per_sqrt_hz * root_s),
+        (_GYRO, imu.gyro_noise_radps_per_sqrt_hz / root_s),
+        (_ACCELEROMETER, imu.accelerometer_noise_mps2_per_sqrt_hz / root_s),
+        (_POSITIONS, joints.position_noise_rad),
+        (_VELOCITIES, joints.velocity_noise_radps),
+        (_TORQUES, joints.torque_noise_nm),
+        (_FORCES, config.foot_force_noise_n),
+    )
+    deviations = np.empty(_FORCES.stop)
+    for block, deviation in of_blocks:
+        deviations[block] = deviation
+    return deviations

@@ -1,6 +1,7 @@
 """Box-plus and box-minus undo each other and act as the error is defined."""
 
 import numpy as np
+import pinocchio as pin
 import pytest
 from estimation_cases import any_filter_state
 
@@ -15,6 +16,7 @@ from quadlab.estimation.error_state import (
     box_minus,
     box_plus,
     foot_block,
+    rotation_exp,
 )
 from quadlab.geometry.rotations import rotation_z, yaw_of
 
@@ -41,3 +43,9 @@ def test_orientation_error_turns_the_whole_state_about_the_worlds_axes() -> None
     np.testing.assert_allclose(turned.position, turn @ state.position)
     np.testing.assert_allclose(turned.velocity, turn @ state.velocity)
     np.testing.assert_allclose(turned.feet, state.feet @ turn.T)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 1e-5, 0.3, 2.0, 3.1])
+def test_exponential_of_a_rotation_vector(angle: float) -> None:
+    vector = angle * np.array([2.0, -1.0, 2.0]) / 3.0
+    np.testing.assert_allclose(rotation_exp(vector), pin.exp3(vector), atol=1e-15)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from estimation_cases import PERIOD, any_filter_state, ekf_config
+from estimation_cases import PERIOD, any_covariance, any_filter_state, ekf_config
 
 from quadlab.estimation.error_state import (
     ERROR_SIZE,
@@ -14,7 +14,7 @@ from quadlab.estimation.error_state import (
     box_minus,
     box_plus,
 )
-from quadlab.estimation.prediction import error_dynamics, inertial_step, predict_state, process_noise
+from quadlab.estimation.prediction import predict, propagate
 from quadlab.geometry.rotations import Array, rotation_zyx
 from quadlab.planners.problem import GRAVITY
 from quadlab.robots.sensing import SensorReading
@@ -32,21 +32,21 @@ def any_reading(seed: int) -> tuple[SensorReading, Array]:
 
 
 def stepped(state: FilterState, measured: SensorReading, spins: Array) -> FilterState:
-    return predict_state(state, inertial_step(state, measured, spins, PERIOD), RADIUS)
+    return predict(state, measured, spins, PERIOD, RADIUS).state
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_jacobian_is_the_derivative_of_the_predicted_error(seed: int) -> None:
     state, (measured, spins) = any_filter_state(seed), any_reading(seed)
-    step = inertial_step(state, measured, spins, PERIOD)
-    predicted = predict_state(state, step, RADIUS)
+    prediction = predict(state, measured, spins, PERIOD, RADIUS)
+    predicted = prediction.state
     size, numeric = 1e-5, np.empty((ERROR_SIZE, ERROR_SIZE))
     for column in range(ERROR_SIZE):
         error = np.zeros(ERROR_SIZE)
         error[column] = size
         above, below = (stepped(box_plus(state, sign * error), measured, spins) for sign in (1.0, -1.0))
         numeric[:, column] = (box_minus(above, predicted) - box_minus(below, predicted)) / (2.0 * size)
-    np.testing.assert_allclose(error_dynamics(predicted, step, RADIUS), numeric, atol=5e-7)
+    np.testing.assert_allclose(prediction.dynamics, numeric, atol=5e-7)
 
 
 def test_resting_unit_stays_at_rest_whatever_its_attitude() -> None:
@@ -69,8 +69,7 @@ def test_foot_rolls_by_its_radius_times_the_angle_of_the_shank() -> None:
 def test_position_and_heading_are_unobservable_at_every_estimate(seed: int) -> None:
     """What shifts or turns base and feet together stays what it was and is not felt by the legs."""
     state, (measured, spins) = any_filter_state(seed), any_reading(seed)
-    step = inertial_step(state, measured, spins, PERIOD)
-    jacobian = error_dynamics(predict_state(state, step, RADIUS), step, RADIUS)
+    jacobian = predict(state, measured, spins, PERIOD, RADIUS).dynamics
     hidden = np.zeros((ERROR_SIZE, 4))
     hidden[POSITION, :3] = np.eye(3)
     hidden[FEET, :3] = np.tile(np.eye(3), (4, 1))
@@ -81,12 +80,23 @@ def test_position_and_heading_are_unobservable_at_every_estimate(seed: int) -> N
 def test_noise_of_a_period_is_symmetric_and_grows_velocity_and_standing_feet() -> None:
     state, (measured, spins) = any_filter_state(0), any_reading(0)
     config = ekf_config().process_noise
-    step = inertial_step(state, measured, spins, PERIOD)
-    jacobian = error_dynamics(predict_state(state, step, RADIUS), step, RADIUS)
-    noise, in_air = (process_noise(jacobian, config, np.array([flag] + [False] * 3), PERIOD) for flag in (True, False))
+    dynamics, known = predict(state, measured, spins, PERIOD, RADIUS).dynamics, np.zeros((ERROR_SIZE, ERROR_SIZE))
+    noise, in_air = (
+        propagate(known, dynamics, config, np.array([flag] + [False] * 3), PERIOD) for flag in (True, False)
+    )
     np.testing.assert_array_equal(noise, noise.T)
     assert np.linalg.eigvalsh(noise).min() > -1e-20
     least = PERIOD * config.accelerometer_mps2_per_sqrt_hz**2
     assert np.all(np.diag(noise)[VELOCITY] >= 0.999 * least)
     slip = PERIOD * config.foot_mps_per_sqrt_hz**2
     np.testing.assert_allclose(np.diag(noise - in_air)[FEET], [slip] * 3 + [0.0] * 9, atol=1e-16)
+
+
+def test_covariance_follows_the_dynamics() -> None:
+    state, (measured, spins), covariance = any_filter_state(1), any_reading(1), any_covariance(1)
+    dynamics, standing = predict(state, measured, spins, PERIOD, RADIUS).dynamics, np.ones(4, dtype=bool)
+    noise, later = (
+        propagate(before, dynamics, ekf_config().process_noise, standing, PERIOD)
+        for before in (np.zeros_like(covariance), covariance)
+    )
+    np.testing.assert_allclose(later - noise, dynamics @ covariance @ dynamics.T, atol=1e-15)
