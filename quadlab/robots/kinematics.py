@@ -76,3 +76,19 @@ class Kinematics:
     joint_positions: Array
     leg_joint_axes: Array
     hip_positions: Array
+
+
+@dataclass(frozen=True)
+class MotionPoints:
+    """The part of ``Kinematics`` that takes no dynamics, for callers that need no more.
+
+    Attributes:
+        com_position, com_velocity: centre of mass, (3,) in [m], [m/s].
+        foot_positions: lowest points of the foot spheres, (4, 3) in [m].
+        foot_contact_velocities: of the material points of the feet there, (4, 3) in [m/s].
+    """
+
+    com_position: Array
+    com_velocity: Array
+    foot_positions: Array
+    foot_contact_velocities: Array

@@ -6,8 +6,15 @@ import numpy as np
 import pinocchio as pin
 
 from quadlab.geometry.rotations import Array
-from quadlab.robots.kinematics import Kinematics
-from quadlab.robots.kinematics_terms import base_terms, com_terms, dynamics_terms, foot_terms, pinocchio_coordinates
+from quadlab.robots.kinematics import Kinematics, MotionPoints
+from quadlab.robots.kinematics_terms import (
+    base_terms,
+    com_terms,
+    contact_points,
+    dynamics_terms,
+    foot_terms,
+    pinocchio_coordinates,
+)
 from quadlab.robots.legs import JOINTS_PER_LEG, LEG_COUNT
 from quadlab.robots.pinocchio_model import PinocchioModel
 from quadlab.robots.state import RobotState
@@ -94,3 +101,15 @@ class KinematicsSolver:
             leg_joint_axes=axes,
             hip_positions=hips,
         )
+
+    def points(self, state: RobotState) -> MotionPoints:
+        """Compute positions and velocities of centre of mass and feet at ``state``."""
+        q, v = self.to_pinocchio(state)
+        pin.centerOfMass(self._model, self._data, q, v)
+        pin.computeJointJacobians(self._model, self._data)
+        pin.updateFramePlacements(self._model, self._data)
+        positions, velocities = contact_points(
+            self._jacobian, v, self._feet, self._joints_of_legs, self._foot_radius
+        )
+        com_position, com_velocity, _ = self._com
+        return MotionPoints(com_position.copy(), com_velocity.copy(), positions, velocities)

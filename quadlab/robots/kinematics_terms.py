@@ -204,3 +204,27 @@ def foot_terms(
     positions = centers.copy()
     positions[:, 2] -= radius
     return centers, positions, velocities, linear, bias, contact, contact_bias, axes
+
+
+@compiled_entry
+def contact_points(
+    jacobian: Array, v: Array, feet: tuple[Array, ...], joints: IndexArray, radius: float
+) -> tuple[Array, Array]:
+    """Return foot_positions and foot_contact_velocities, (4, 3) each, as in ``MotionPoints``; see ``foot_terms``."""
+    legs = len(feet)
+    positions, velocities = np.empty((legs, 3)), np.empty((legs, 3))
+    linear, angular = np.empty(3), np.empty(3)
+    for leg in range(legs):
+        positions[leg] = feet[leg]
+        positions[leg, 2] -= radius
+        linear[:] = 0.0
+        angular[:] = 0.0
+        add_product(jacobian[:3, :_BASE], v[:_BASE], linear)
+        add_product(jacobian[3:, :_BASE], v[:_BASE], angular)
+        for joint in joints[leg]:
+            for axis in range(3):
+                linear[axis] += jacobian[axis, joint] * v[joint]
+                angular[axis] += jacobian[3 + axis, joint] * v[joint]
+        cross(angular, positions[leg], velocities[leg])
+        velocities[leg] += linear
+    return positions, velocities

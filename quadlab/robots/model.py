@@ -8,7 +8,7 @@ import pinocchio as pin
 from quadlab.geometry.rotations import Array
 from quadlab.robots.config import RobotConfig
 from quadlab.robots.description import load_urdf_text
-from quadlab.robots.kinematics import Kinematics
+from quadlab.robots.kinematics import Kinematics, MotionPoints
 from quadlab.robots.kinematics_solver import KinematicsSolver
 from quadlab.robots.legs import JOINT_COUNT, LEG_COUNT, LEGS
 from quadlab.robots.pinocchio_model import build_pinocchio_model
@@ -118,3 +118,7 @@ class RobotModel:
     def kinematics(self, state: RobotState) -> Kinematics:
         """Compute kinematics and dynamics at ``state``."""
         return self._solver.solve(state)
+
+    def points(self, state: RobotState) -> MotionPoints:
+        """Compute the centre of mass and the feet at ``state``, in a fraction of the time of ``kinematics``."""
+        return self._solver.points(state)

@@ -4,11 +4,14 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from quadlab.controllers.telemetry import ControlTelemetry
 from quadlab.estimation.estimate import Estimate
-from quadlab.geometry.rotations import Array, rotation_log
+from quadlab.geometry.rotations import Array
 from quadlab.robots.state import RobotState
+
+_VELOCITY, _QUAT = slice(3, 6), slice(6, 10)
 
 
 @dataclass
@@ -19,10 +22,9 @@ class EstimationMetrics:
     time. Velocity (in base axes) and roll and pitch are observable: their errors stay small.
     """
 
-    _drifts: list[float] = field(default_factory=list)
-    _turns: list[Array] = field(default_factory=list)
-    _velocity_errors: list[Array] = field(default_factory=list)
-    _believed_com_errors: list[float] = field(default_factory=list)
+    _true_states: list[Array] = field(default_factory=list)
+    _believed_states: list[Array] = field(default_factory=list)
+    _believed_com_errors: list[Array] = field(default_factory=list)
     _updates_us: list[float] = field(default_factory=list)
     _innovation_squared: float = 0.0
     _innovation_size: int = 0
@@ -38,15 +40,9 @@ class EstimationMetrics:
         """
         if estimate.report is None:
             return
-        true_rotation, believed = true_state.rotation_base_to_world, estimate.state
-        self._drifts.append(math.dist(believed.position_base_in_world, true_state.position_base_in_world))
-        self._turns.append(rotation_log(believed.rotation_base_to_world @ true_rotation.T))
-        true_velocity = true_rotation.T @ true_state.linear_velocity_base_in_world
-        velocity = believed.rotation_base_to_world.T @ believed.linear_velocity_base_in_world
-        self._velocity_errors.append(velocity - true_velocity)
-        self._believed_com_errors.append(
-            math.dist(telemetry.com_position[:2], telemetry.com_position_reference[:2]),
-        )
+        self._true_states.append(_base_of(true_state))
+        self._believed_states.append(_base_of(estimate.state))
+        self._believed_com_errors.append(telemetry.com_position - telemetry.com_position_reference)
         self._updates_us.append(estimate.report.update_us)
         self._innovation_squared += estimate.report.innovation_squared
         self._innovation_size += estimate.report.innovation_size
@@ -54,24 +50,31 @@ class EstimationMetrics:
 
     def summary(self) -> dict[str, float | int | None]:
         """Return the metrics by their names in ``TrialResult``; empty if the controller was given the truth."""
-        if not self._drifts:
+        if not self._true_states:
             return {}
-        turns = np.degrees(self._turns)
+        true, believed = np.array(self._true_states), np.array(self._believed_states)
+        true_turn, believed_turn = (Rotation.from_quat(states[:, _QUAT], scalar_first=True) for states in (true, believed))
+        turns = np.degrees((believed_turn * true_turn.inv()).as_rotvec())
         tilts = np.hypot(turns[:, 0], turns[:, 1])
-        velocities = np.linalg.norm(self._velocity_errors, axis=1)
-        believed = np.array(self._believed_com_errors)
+        velocity_errors = believed_turn.inv().apply(believed[:, _VELOCITY]) - true_turn.inv().apply(true[:, _VELOCITY])
+        com_errors = np.linalg.norm(np.array(self._believed_com_errors)[:, :2], axis=1)
         return {
-            "com_error_believed_rms_mm": 1e3 * _rms(believed),
-            "com_error_believed_max_mm": 1e3 * float(believed.max()),
-            "estimate_position_drift_mm": 1e3 * self._drifts[-1],
+            "com_error_believed_rms_mm": 1e3 * _rms(com_errors),
+            "com_error_believed_max_mm": 1e3 * float(com_errors.max()),
+            "estimate_position_drift_mm": 1e3 * math.dist(believed[-1, :3], true[-1, :3]),
             "estimate_yaw_drift_deg": abs(float(turns[-1, 2])),
             "estimate_roll_pitch_rms_deg": _rms(tilts),
             "estimate_roll_pitch_max_deg": float(tilts.max()),
-            "estimate_velocity_rms_mps": _rms(velocities),
+            "estimate_velocity_rms_mps": _rms(np.linalg.norm(velocity_errors, axis=1)),
             "estimate_innovation_ratio": self._innovation_squared / max(self._innovation_size, 1),
             "estimate_outliers": self._outliers,
             "estimate_update_median_us": float(np.median(self._updates_us)),
         }
+
+
+def _base_of(state: RobotState) -> Array:
+    """Return position, velocity and quaternion of the base in world components, (10,)."""
+    return np.concatenate([state.position_base_in_world, state.linear_velocity_base_in_world, state.quat_wxyz])
 
 
 def _rms(values: Array) -> float:

@@ -8,11 +8,13 @@ is estimated, the drift of the estimate (position and heading cannot be observed
 import hashlib
 import math
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from quadlab.controllers.telemetry import ControlTelemetry, LegMode
-from quadlab.geometry.rotations import Array, rotation_log, rotation_zyx
+from quadlab.geometry.rotations import Array
 from quadlab.planners.problem import GRAVITY
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.state import JointCommand, RobotState
@@ -20,9 +22,30 @@ from quadlab.robots.state import JointCommand, RobotState
 _AT_LIMIT = 0.999  # share of the torque limit that counts as being at it
 
 
+_LEAST_DISTANCE_M = 0.05  # below it a cost of transport says nothing
+
+_WIDTHS = {
+    "time": 1,
+    "tick_us": 1,
+    "height_reference": 1,
+    "position": 3,
+    "quat": 4,
+    "rpy_reference": 3,
+    "com": 3,
+    "com_reference": 3,
+    "torques": 12,
+    "joint_velocities": 12,
+    "foot_velocities": 12,
+    "foot_forces": 12,
+}
+_ENDS = np.cumsum([0, *_WIDTHS.values()]).tolist()
+_COLUMNS = {name: slice(*ends) for name, ends in zip(_WIDTHS, pairwise(_ENDS), strict=True)}
+"""Where the numbers of a tick stand in its row."""
+
+
 @dataclass
 class TrialMetrics:
-    """Collects one row of numbers a tick; ``summary`` makes the metrics of ``TrialResult`` of them.
+    """Keeps one row of numbers a tick; ``summary`` makes the metrics of ``TrialResult`` of them.
 
     Attributes:
         mass: of the robot in [kg].
@@ -33,18 +56,9 @@ class TrialMetrics:
     mass: float
     torque_limits: Array
     period_s: float
-    _com_errors: list[float] = field(default_factory=list)
-    _height_errors: list[float] = field(default_factory=list)
-    _tilt_errors: list[float] = field(default_factory=list)
-    _torque_peaks: list[float] = field(default_factory=list)
-    _ticks_us: list[float] = field(default_factory=list)
-    _at_limit: int = 0
-    _energy: float = 0.0
-    _slip: list[float] = field(default_factory=lambda: [0.0] * LEG_COUNT)
-    _slip_max: float = 0.0
+    _rows: list[Array] = field(default_factory=list)
+    _modes: list[tuple[LegMode, ...]] = field(default_factory=list)
     _fallbacks: int = 0
-    _first: RobotState | None = None
-    _last: RobotState | None = None
     _hash: "hashlib._Hash" = field(default_factory=hashlib.sha256)
 
     def add(self, state: RobotState, command: JointCommand, telemetry: ControlTelemetry, physics_state: Array) -> None:
@@ -56,66 +70,81 @@ class TrialMetrics:
             telemetry: of the controller, its measured quantities replaced by the true ones.
             physics_state: everything the simulator integrates; goes into the hash.
         """
-        self._first = self._first or state
-        self._last = state
-        self._com_errors.append(
-            math.dist(telemetry.com_position[:2], telemetry.com_position_reference[:2]),
+        parts = (
+            np.array([state.time_s, telemetry.tick_us, telemetry.base_height_reference]),
+            state.position_base_in_world,
+            state.quat_wxyz,
+            telemetry.base_rpy_reference,
+            telemetry.com_position,
+            telemetry.com_position_reference,
+            command.torques,
+            state.joint_velocities,
+            telemetry.foot_contact_velocities.ravel(),
+            state.foot_forces_in_world.ravel(),
         )
-        self._height_errors.append(float(state.position_base_in_world[2]) - telemetry.base_height_reference)
-        self._tilt_errors.append(_roll_pitch_error(state, telemetry))
-        torques = np.abs(command.torques)
-        self._torque_peaks.append(float(torques.max()))
-        self._at_limit += bool((torques >= _AT_LIMIT * self.torque_limits).any())
-        self._energy += float(np.abs(command.torques * state.joint_velocities).sum()) * self.period_s
-        self._add_slip(state, telemetry)
-        self._ticks_us.append(telemetry.tick_us)
+        self._rows.append(np.concatenate(parts))
+        self._modes.append(telemetry.leg_modes)
         self._fallbacks = telemetry.fallbacks
         self._hash.update(np.ascontiguousarray(physics_state).tobytes())
 
-    def _add_slip(self, state: RobotState, telemetry: ControlTelemetry) -> None:
-        """Integrate the speed of the material point under each standing, loaded foot over its stance."""
-        velocities, forces = telemetry.foot_contact_velocities.tolist(), state.foot_forces_in_world[:, 2].tolist()
-        for leg, mode in enumerate(telemetry.leg_modes):
-            speed = math.hypot(*velocities[leg][:2]) if forces[leg] > 0.0 else 0.0
-            self._slip[leg] = self._slip[leg] + speed * self.period_s if mode is LegMode.STANCE else 0.0
-        self._slip_max = max(self._slip_max, *self._slip)
+    @property
+    def distance_m(self) -> float:
+        """How far the base has come over the ground in [m]."""
+        if not self._rows:
+            return 0.0
+        start, end = (row[_COLUMNS["position"]] for row in (self._rows[0], self._rows[-1]))
+        return math.dist(start[:2], end[:2])
 
     def summary(self) -> dict[str, float | int | str | None]:
         """Return the metrics by their names in ``TrialResult``; empty if there was no tick."""
-        if self._first is None or self._last is None:
+        if not self._rows:
             return {}
-        start, end = self._first.position_base_in_world, self._last.position_base_in_world
-        distance = math.dist(start[:2], end[:2])
-        survived = self._last.time_s + self.period_s - self._first.time_s
-        weight = self.mass * GRAVITY
+        rows = np.array(self._rows)
+        ticks = {name: rows[:, columns] for name, columns in _COLUMNS.items()}
+        distance, weight = self.distance_m, self.mass * GRAVITY
+        survived = float(ticks["time"][-1, 0] + self.period_s - ticks["time"][0, 0])
+        com_errors = np.linalg.norm((ticks["com"] - ticks["com_reference"])[:, :2], axis=1)
+        torques = np.abs(ticks["torques"])
+        energy = float(np.abs(ticks["torques"] * ticks["joint_velocities"]).sum()) * self.period_s
         return {
             "survived_s": survived,
             "distance_m": distance,
             "mean_speed_mps": distance / survived,
-            "com_error_rms_mm": 1e3 * _rms(self._com_errors),
-            "com_error_max_mm": 1e3 * max(self._com_errors),
-            "base_height_rms_mm": 1e3 * _rms(self._height_errors),
-            "roll_pitch_rms_deg": math.degrees(_rms(self._tilt_errors)),
-            "foot_slip_max_mm": 1e3 * self._slip_max,
-            "torque_max_nm": max(self._torque_peaks),
-            "torque_limit_share": self._at_limit / len(self._torque_peaks),
-            "cost_of_transport": self._energy / (weight * distance) if distance > _LEAST_DISTANCE_M else None,
-            "control_tick_median_us": float(np.median(self._ticks_us)),
-            "control_tick_p99_us": float(np.percentile(self._ticks_us, 99)),
+            "com_error_rms_mm": 1e3 * _rms(com_errors),
+            "com_error_max_mm": 1e3 * float(com_errors.max()),
+            "base_height_rms_mm": 1e3 * _rms(ticks["position"][:, 2] - ticks["height_reference"][:, 0]),
+            "roll_pitch_rms_deg": math.degrees(_rms(_roll_pitch_errors(ticks["quat"], ticks["rpy_reference"]))),
+            "foot_slip_max_mm": 1e3 * self._longest_slip(ticks["foot_velocities"], ticks["foot_forces"]),
+            "torque_max_nm": float(torques.max()),
+            "torque_limit_share": float((torques >= _AT_LIMIT * self.torque_limits).any(axis=1).mean()),
+            "cost_of_transport": energy / (weight * distance) if distance > _LEAST_DISTANCE_M else None,
+            "control_tick_median_us": float(np.median(ticks["tick_us"])),
+            "control_tick_p99_us": float(np.percentile(ticks["tick_us"], 99)),
             "control_fallbacks": self._fallbacks,
             "state_sha256": self._hash.hexdigest(),
         }
 
+    def _longest_slip(self, velocities: Array, forces: Array) -> float:
+        """Return the longest way in [m] of the material point under a standing, loaded foot in one stance.
 
-_LEAST_DISTANCE_M = 0.05  # below it a cost of transport says nothing
+        Args:
+            velocities, forces: of the feet, (ticks, 12) in [m/s] and [N].
+        """
+        speeds = np.linalg.norm(velocities.reshape(-1, LEG_COUNT, 3)[:, :, :2], axis=2)
+        loaded = forces.reshape(-1, LEG_COUNT, 3)[:, :, 2] > 0.0
+        stands = np.array(self._modes) == LegMode.STANCE
+        way = np.cumsum(np.where(stands & loaded, speeds, 0.0) * self.period_s, axis=0)
+        before_stance = np.maximum.accumulate(np.where(stands, 0.0, way), axis=0)
+        return float((way - before_stance).max())
 
 
-def _rms(values: list[float]) -> float:
+def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def _roll_pitch_error(state: RobotState, telemetry: ControlTelemetry) -> float:
-    """Angle in [rad] between the base and its reference, heading apart."""
-    roll, pitch, yaw = telemetry.base_rpy_reference.tolist()
-    error = rotation_log(rotation_zyx(yaw, pitch, roll).T @ state.rotation_base_to_world)
-    return math.hypot(error[0], error[1])
+def _roll_pitch_errors(quats: Array, rpy_references: Array) -> Array:
+    """Angles in [rad] between base, quaternions (ticks, 4), and reference, (ticks, 3), heading apart."""
+    references = Rotation.from_euler("ZYX", rpy_references[:, ::-1])
+    errors = (references.inv() * Rotation.from_quat(quats, scalar_first=True)).as_rotvec()
+    angles: Array = np.hypot(errors[:, 0], errors[:, 1])
+    return angles

@@ -8,7 +8,7 @@ import numpy as np
 from quadlab.configuration import part_of
 from quadlab.controllers.telemetry import ControlTelemetry
 from quadlab.estimation.estimate import Estimate, Estimator
-from quadlab.robots.kinematics import Kinematics
+from quadlab.robots.kinematics import MotionPoints
 from quadlab.robots.model import RobotModel
 from quadlab.robots.state import JointCommand, RobotState
 from quadlab.simulation.sensors import Sensors
@@ -39,7 +39,7 @@ class Observer:
 
 
 def as_it_happened(
-    telemetry: ControlTelemetry, estimate: Estimate, true_state: RobotState, true_kinematics: Kinematics
+    telemetry: ControlTelemetry, estimate: Estimate, true_state: RobotState, true_points: MotionPoints
 ) -> ControlTelemetry:
     """Return ``telemetry`` with the true motion in place of the believed one; references stay as they were.
 
@@ -49,9 +49,9 @@ def as_it_happened(
     plane = telemetry.terrain_plane - np.array([drift[2], 0.0, 0.0])
     return replace(
         telemetry,
-        com_position=true_kinematics.com_position,
-        com_velocity=true_kinematics.com_velocity,
-        foot_positions=true_kinematics.foot_positions,
-        foot_contact_velocities=true_kinematics.contact_jacobians @ true_kinematics.generalized_velocity,
+        com_position=true_points.com_position,
+        com_velocity=true_points.com_velocity,
+        foot_positions=true_points.foot_positions,
+        foot_contact_velocities=true_points.foot_contact_velocities,
         terrain_plane=plane,
     )

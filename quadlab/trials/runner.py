@@ -134,7 +134,7 @@ class ClosedLoop:
         recorder.record(TickRecord(state, applied, telemetry, pushes, estimate), poses)
         self.estimation.add(state, estimate, telemetry)
         if estimate.report is not None:
-            telemetry = as_it_happened(telemetry, estimate, state, self._robot.kinematics(state))
+            telemetry = as_it_happened(telemetry, estimate, state, self._robot.points(state))
         self.metrics.add(state, applied, telemetry, self._simulator.integration_state())
         fallen = fall_reason(self.config.failure, state, telemetry, self._standing_height)
         return Ending(TrialStatus.FELL, fallen) if fallen else None
@@ -142,8 +142,7 @@ class ClosedLoop:
     def _judge(self) -> Ending:
         start, end = self.plan.com(0.0), self.plan.com(self.plan.duration_s)
         planned = math.dist(start[:2], end[:2])
-        distance = float(self.metrics.summary()["distance_m"] or 0.0)
-        stuck = progress_reason(self.config.failure, distance, planned)
+        stuck = progress_reason(self.config.failure, self.metrics.distance_m, planned)
         if stuck:
             return Ending(TrialStatus.NO_PROGRESS, stuck)
         return Ending(TrialStatus.COMPLETED, f"upright after {self.config.duration_s:g} s")
