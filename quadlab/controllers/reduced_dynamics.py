@@ -18,6 +18,7 @@ from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled, compiled_entry
 from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 from quadlab.robots.legs import JOINT_COUNT
+from quadlab.robots.pinocchio_model import IndexArray
 
 _BASE = VELOCITY_SIZE - JOINT_COUNT
 _COLUMNS = JOINT_COUNT + 1
@@ -28,8 +29,9 @@ def reduce_dynamics(kinematics: Kinematics, stance_legs: list[int]) -> DecisionS
     linear, offset = _reduce(
         kinematics.mass_matrix,
         kinematics.nonlinear_effects,
-        kinematics.contact_jacobians[stance_legs].reshape(3 * len(stance_legs), VELOCITY_SIZE),
-        kinematics.contact_bias[stance_legs].ravel(),
+        kinematics.contact_jacobians,
+        kinematics.contact_bias,
+        np.array(stance_legs, dtype=np.intp),
     )
     return DecisionSpace(linear, offset)
 
@@ -74,13 +76,15 @@ def _solve_transposed_factor(factor: Array, columns: Array) -> None:
 
 
 @compiled_entry
-def _reduce(mass_matrix: Array, nonlinear_effects: Array, jacobian: Array, bias: Array) -> tuple[Array, Array]:
+def _reduce(
+    mass_matrix: Array, nonlinear_effects: Array, jacobians: Array, biases: Array, legs: IndexArray
+) -> tuple[Array, Array]:
     """Return [U; I; L], (30 + m, 12), and [u_0; 0; l_0], (30 + m,).
 
     By Cholesky factors of M = G G^T and J M^-1 J^T = Y^T Y with Y = G^-1 J^T.
     Written out: on matrices of this size the calls of a library take longer than the arithmetic.
     """
-    size, contacts = VELOCITY_SIZE, len(bias)
+    size, contacts = VELOCITY_SIZE, 3 * len(legs)
     factor = mass_matrix.copy()
     _factorise(factor)
     half = np.zeros((size, _COLUMNS + contacts))  # G^-1 [S^T, -h, J^T]
@@ -89,7 +93,7 @@ def _reduce(mass_matrix: Array, nonlinear_effects: Array, jacobian: Array, bias:
             half[i, i - _BASE] = 1.0
         half[i, JOINT_COUNT] = -nonlinear_effects[i]
         for c in range(contacts):
-            half[i, _COLUMNS + c] = jacobian[c, i]
+            half[i, _COLUMNS + c] = jacobians[legs[c // 3], c % 3, i]
     _solve_factor(factor, half)
     delassus, forces = np.zeros((contacts, contacts)), np.zeros((contacts, _COLUMNS))
     for k in range(size):
@@ -100,7 +104,7 @@ def _reduce(mass_matrix: Array, nonlinear_effects: Array, jacobian: Array, bias:
             for c in range(i + 1):
                 delassus[i, c] += weight * half[k, _COLUMNS + c]
     for i in range(contacts):
-        forces[i, JOINT_COUNT] -= bias[i]
+        forces[i, JOINT_COUNT] -= biases[legs[i // 3], i % 3]
     _factorise(delassus)
     _solve_factor(delassus, forces)
     _solve_transposed_factor(delassus, forces)

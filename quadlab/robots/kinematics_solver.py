@@ -108,8 +108,6 @@ class KinematicsSolver:
         pin.centerOfMass(self._model, self._data, q, v)
         pin.computeJointJacobians(self._model, self._data)
         pin.updateFramePlacements(self._model, self._data)
-        positions, velocities = contact_points(
-            self._jacobian, v, self._feet, self._joints_of_legs, self._foot_radius
-        )
+        positions, velocities = contact_points(self._jacobian, v, self._feet, self._joints_of_legs, self._foot_radius)
         com_position, com_velocity, _ = self._com
         return MotionPoints(com_position.copy(), com_velocity.copy(), positions, velocities)

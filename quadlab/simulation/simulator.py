@@ -56,6 +56,7 @@ class Simulator:
         self._map = MujocoMap.of(self.model, robot)
         self._body_names = tuple(self.model.body(body).name for body in range(1, self.model.nbody))
         self._imu = ImuIntegrator.of(self.model)
+        self._state_size = int(mujoco.mj_stateSize(self.model, _STATE))
         self._pushes = tuple(self._schedule(push) for push in scenario.pushes)
         self._initial_state = initial_state(robot, scenario.initial_perturbation, seed)
         self._step = 0
@@ -160,7 +161,7 @@ class Simulator:
 
     def integration_state(self) -> Array:
         """Return everything that the future depends on besides the commands; see ``restore``."""
-        state = np.empty(mujoco.mj_stateSize(self.model, _STATE))
+        state = np.empty(self._state_size)
         mujoco.mj_getState(self.model, self._data, state, _STATE)
         return state
 

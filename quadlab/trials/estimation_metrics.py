@@ -53,7 +53,9 @@ class EstimationMetrics:
         if not self._true_states:
             return {}
         true, believed = np.array(self._true_states), np.array(self._believed_states)
-        true_turn, believed_turn = (Rotation.from_quat(states[:, _QUAT], scalar_first=True) for states in (true, believed))
+        true_turn, believed_turn = (
+            Rotation.from_quat(states[:, _QUAT], scalar_first=True) for states in (true, believed)
+        )
         turns = np.degrees((believed_turn * true_turn.inv()).as_rotvec())
         tilts = np.hypot(turns[:, 0], turns[:, 1])
         velocity_errors = believed_turn.inv().apply(believed[:, _VELOCITY]) - true_turn.inv().apply(true[:, _VELOCITY])

@@ -24,19 +24,22 @@ def composition_problem(error: Exception) -> str:
     Args:
         error: what Hydra or OmegaConf raised while composing.
     """
-    if isinstance(error, MissingConfigException) and error.missing_cfg_file:
-        return _unknown_option(error)
-    if isinstance(error, OverrideParseException):
-        return f"{error.override}: cannot be read as key=value ({_first_line(error.message)})"
-    if isinstance(error.__cause__, OmegaConfBaseException):
-        return _unknown_key(error.__cause__) or f"{_first_line(error)}: {_first_line(error.__cause__)}"
-    if isinstance(error, yaml.MarkedYAMLError) and error.problem_mark:
-        return f"{error.problem_mark.name}, line {error.problem_mark.line + 1}: {error.problem}"
-    if isinstance(error, AssertionError):
-        return "an override has no key; expected key=value, +key=value or ~key"
-    if isinstance(error, OSError):
-        return f"{str(error.filename)[:_LONGEST_PATH]}: {error.strerror}"
-    return _first_line(error)
+    match error:
+        case MissingConfigException() if error.missing_cfg_file:
+            problem = _unknown_option(error)
+        case OverrideParseException():
+            problem = f"{error.override}: cannot be read as key=value ({_first_line(error.message)})"
+        case yaml.MarkedYAMLError() if error.problem_mark:
+            problem = f"{error.problem_mark.name}, line {error.problem_mark.line + 1}: {error.problem}"
+        case AssertionError():
+            problem = "an override has no key; expected key=value, +key=value or ~key"
+        case OSError():
+            problem = f"{str(error.filename)[:_LONGEST_PATH]}: {error.strerror}"
+        case _ if isinstance(error.__cause__, OmegaConfBaseException):
+            problem = _unknown_key(error.__cause__) or f"{_first_line(error)}: {_first_line(error.__cause__)}"
+        case _:
+            problem = _first_line(error)
+    return problem
 
 
 def _unknown_option(error: MissingConfigException) -> str:

@@ -9,6 +9,7 @@ from scipy.linalg import block_diag
 
 from quadlab.estimation.correction import (
     FootInnovations,
+    choose_feet,
     correct,
     foot_innovations,
     place_foot,
@@ -126,3 +127,17 @@ def test_foot_that_lands_has_the_error_of_the_base_and_of_its_measurement() -> N
     kept = [i for i in range(ERROR_SIZE) if i not in range(*foot_block(2).indices(ERROR_SIZE))]
     np.testing.assert_array_equal(placed[np.ix_(kept, kept)], covariance[np.ix_(kept, kept)])
     np.testing.assert_array_equal(placed, placed.T)
+
+
+def test_foot_beyond_the_gate_is_refused_and_counted() -> None:
+    distances, refusals = np.array([0.0, 2.0 * CONFIG.gate, 0.0, 2.0 * CONFIG.gate]), np.array([3, 4, 0, 5])
+    used, counted = choose_feet(distances, np.array([True, True, False, False]), refusals, CONFIG)
+    np.testing.assert_array_equal(used, [True, False, False, False])
+    np.testing.assert_array_equal(counted, [0, 5, 0, 0])
+
+
+@pytest.mark.parametrize(("refused", "trusted"), [(CONFIG.blind_ticks - 1, False), (CONFIG.blind_ticks, True)])
+def test_all_standing_feet_are_used_once_none_has_fitted_for_long(refused: int, trusted: bool) -> None:
+    standing = np.array([True, False, False, True])
+    used, _ = choose_feet(np.full(4, 2.0 * CONFIG.gate), standing, np.full(4, refused), CONFIG)
+    np.testing.assert_array_equal(used, standing & trusted)

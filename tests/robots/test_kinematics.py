@@ -104,6 +104,16 @@ def test_kinetic_energy_is_that_of_the_moving_masses(robot: RobotModel) -> None:
     assert 0.5 * u @ kinematics.mass_matrix @ u == pytest.approx(energy, rel=1e-12)
 
 
+def test_points_are_those_of_the_whole_kinematics(robot: RobotModel) -> None:
+    state = moving_state(robot)
+    points, kinematics = robot.points(state), robot.kinematics(state)
+    np.testing.assert_allclose(points.com_position, kinematics.com_position, atol=1e-12)
+    np.testing.assert_allclose(points.com_velocity, kinematics.com_velocity, atol=1e-12)
+    np.testing.assert_allclose(points.foot_positions, kinematics.foot_positions, atol=1e-12)
+    velocities = kinematics.contact_jacobians @ kinematics.generalized_velocity
+    np.testing.assert_allclose(points.foot_contact_velocities, velocities, atol=1e-12)
+
+
 def test_kinematics_keep_their_numbers_when_the_next_state_is_computed(robot: RobotModel) -> None:
     first = robot.kinematics(moving_state(robot))
     kept = {name: np.copy(value) for name, value in vars(first).items()}
