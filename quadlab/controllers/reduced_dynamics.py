@@ -9,13 +9,16 @@ give u_dot = U tau + u_0 and lambda = L tau + l_0. A hierarchy whose first level
 "no contact motion" has exactly these solutions, so the remaining levels are solved in the 12 torques alone.
 """
 
-import math
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 
 from quadlab.controllers.decision_space import DecisionSpace
+from quadlab.geometry import cholesky
+from quadlab.geometry.cholesky import factorise, solve_factor, solve_transposed_factor
 from quadlab.geometry.rotations import Array
-from quadlab.jit import compiled, compiled_entry
+from quadlab.jit import compiled_entry, source_fingerprint
 from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 from quadlab.robots.legs import JOINT_COUNT
 from quadlab.robots.pinocchio_model import IndexArray
@@ -36,87 +39,55 @@ def reduce_dynamics(kinematics: Kinematics, stance_legs: list[int]) -> DecisionS
     return DecisionSpace(linear, offset)
 
 
-@compiled
-def _factorise(matrix: Array) -> None:
-    """Replace the lower triangle of a positive definite ``matrix`` (n, n) by its Cholesky factor; NaN if it is not."""
-    for j in range(len(matrix)):
-        for k in range(j):
-            matrix[j, j] -= matrix[j, k] * matrix[j, k]
-        matrix[j, j] = math.sqrt(matrix[j, j])
-        for i in range(j + 1, len(matrix)):
-            for k in range(j):
-                matrix[i, j] -= matrix[i, k] * matrix[j, k]
-            matrix[i, j] /= matrix[j, j]
+def _compile_reduction(fingerprint: int) -> Callable[..., tuple[Array, Array]]:
+    @compiled_entry
+    def reduce(
+        mass_matrix: Array, nonlinear_effects: Array, jacobians: Array, biases: Array, legs: IndexArray
+    ) -> tuple[Array, Array]:
+        """Return [U; I; L], (30 + m, 12), and [u_0; 0; l_0], (30 + m,).
 
-
-@compiled
-def _solve_factor(factor: Array, columns: Array) -> None:
-    """Replace ``columns`` (n, m) by G^-1 columns, G the lower triangle of ``factor``."""
-    for i in range(len(factor)):
-        for k in range(i):
-            weight = factor[i, k]
-            if weight != 0.0:  # legs do not couple: a third of the mass matrix is zero
-                for c in range(columns.shape[1]):
-                    columns[i, c] -= weight * columns[k, c]
-        for c in range(columns.shape[1]):
-            columns[i, c] /= factor[i, i]
-
-
-@compiled
-def _solve_transposed_factor(factor: Array, columns: Array) -> None:
-    """Replace ``columns`` (n, m) by G^-T columns, G the lower triangle of ``factor``."""
-    for i in range(len(factor) - 1, -1, -1):
-        for c in range(columns.shape[1]):
-            columns[i, c] /= factor[i, i]
-        for k in range(i):
-            weight = factor[i, k]
-            if weight != 0.0:
-                for c in range(columns.shape[1]):
-                    columns[k, c] -= weight * columns[i, c]
-
-
-@compiled_entry
-def _reduce(
-    mass_matrix: Array, nonlinear_effects: Array, jacobians: Array, biases: Array, legs: IndexArray
-) -> tuple[Array, Array]:
-    """Return [U; I; L], (30 + m, 12), and [u_0; 0; l_0], (30 + m,).
-
-    By Cholesky factors of M = G G^T and J M^-1 J^T = Y^T Y with Y = G^-1 J^T.
-    Written out: on matrices of this size the calls of a library take longer than the arithmetic.
-    """
-    size, contacts = VELOCITY_SIZE, 3 * len(legs)
-    factor = mass_matrix.copy()
-    _factorise(factor)
-    half = np.zeros((size, _COLUMNS + contacts))  # G^-1 [S^T, -h, J^T]
-    for i in range(size):
-        if i >= _BASE:
-            half[i, i - _BASE] = 1.0
-        half[i, JOINT_COUNT] = -nonlinear_effects[i]
-        for c in range(contacts):
-            half[i, _COLUMNS + c] = jacobians[legs[c // 3], c % 3, i]
-    _solve_factor(factor, half)
-    delassus, forces = np.zeros((contacts, contacts)), np.zeros((contacts, _COLUMNS))
-    for k in range(size):
+        By Cholesky factors of M = G G^T and J M^-1 J^T = Y^T Y with Y = G^-1 J^T.
+        Written out: on matrices of this size the calls of a library take longer than the arithmetic.
+        """
+        _ = fingerprint  # a closure variable, so that the cached machine code follows a change of the factorisation
+        size, contacts = VELOCITY_SIZE, 3 * len(legs)
+        factor = mass_matrix.copy()
+        factorise(factor)
+        half = np.zeros((size, _COLUMNS + contacts))  # G^-1 [S^T, -h, J^T]
+        for i in range(size):
+            if i >= _BASE:
+                half[i, i - _BASE] = 1.0
+            half[i, JOINT_COUNT] = -nonlinear_effects[i]
+            for c in range(contacts):
+                half[i, _COLUMNS + c] = jacobians[legs[c // 3], c % 3, i]
+        solve_factor(factor, half)
+        delassus, forces = np.zeros((contacts, contacts)), np.zeros((contacts, _COLUMNS))
+        for k in range(size):
+            for i in range(contacts):
+                weight = half[k, _COLUMNS + i]
+                for c in range(_COLUMNS):
+                    forces[i, c] -= weight * half[k, c]
+                for c in range(i + 1):
+                    delassus[i, c] += weight * half[k, _COLUMNS + c]
         for i in range(contacts):
-            weight = half[k, _COLUMNS + i]
-            for c in range(_COLUMNS):
-                forces[i, c] -= weight * half[k, c]
-            for c in range(i + 1):
-                delassus[i, c] += weight * half[k, _COLUMNS + c]
-    for i in range(contacts):
-        forces[i, JOINT_COUNT] -= biases[legs[i // 3], i % 3]
-    _factorise(delassus)
-    _solve_factor(delassus, forces)
-    _solve_transposed_factor(delassus, forces)
-    motion = half[:, :_COLUMNS].copy()
-    for i in range(size):
-        for k in range(contacts):
-            for c in range(_COLUMNS):
-                motion[i, c] += half[i, _COLUMNS + k] * forces[k, c]
-    _solve_transposed_factor(factor, motion)
-    linear, offset = np.zeros((size + JOINT_COUNT + contacts, JOINT_COUNT)), np.zeros(size + JOINT_COUNT + contacts)
-    linear[:size], offset[:size] = motion[:, :JOINT_COUNT], motion[:, JOINT_COUNT]
-    for joint in range(JOINT_COUNT):
-        linear[size + joint, joint] = 1.0
-    linear[size + JOINT_COUNT :], offset[size + JOINT_COUNT :] = forces[:, :JOINT_COUNT], forces[:, JOINT_COUNT]
-    return linear, offset
+            forces[i, JOINT_COUNT] -= biases[legs[i // 3], i % 3]
+        factorise(delassus)
+        solve_factor(delassus, forces)
+        solve_transposed_factor(delassus, forces)
+        motion = half[:, :_COLUMNS].copy()
+        for i in range(size):
+            for k in range(contacts):
+                for c in range(_COLUMNS):
+                    motion[i, c] += half[i, _COLUMNS + k] * forces[k, c]
+        solve_transposed_factor(factor, motion)
+        linear, offset = np.zeros((size + JOINT_COUNT + contacts, JOINT_COUNT)), np.zeros(size + JOINT_COUNT + contacts)
+        linear[:size], offset[:size] = motion[:, :JOINT_COUNT], motion[:, JOINT_COUNT]
+        for joint in range(JOINT_COUNT):
+            linear[size + joint, joint] = 1.0
+        linear[size + JOINT_COUNT :], offset[size + JOINT_COUNT :] = forces[:, :JOINT_COUNT], forces[:, JOINT_COUNT]
+        return linear, offset
+
+    return reduce
+
+
+_reduce = _compile_reduction(source_fingerprint(Path(cholesky.__file__).parent))

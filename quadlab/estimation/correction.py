@@ -18,6 +18,8 @@ from quadlab.estimation.error_state import (
 )
 from quadlab.estimation.leg_kinematics import LegKinematics
 from quadlab.gaits.schedule import BoolArray
+from quadlab.geometry import cholesky
+from quadlab.geometry.cholesky import factorise, solve_factor
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry, source_fingerprint
 from quadlab.robots.legs import LEG_COUNT
@@ -98,7 +100,8 @@ class Correction:
 def correct(state: FilterState, covariance: Array, innovations: FootInnovations, feet: BoolArray) -> Correction:
     """Return state and covariance after the measurements of ``feet``, (4,) flags.
 
-    The covariance is updated in Joseph's form, P+ = (I - K H) P (I - K H)^T + K N K^T, and made symmetric.
+    With the factor G of the innovation's covariance S = H P H^T + N = G G^T and W = G^-1 H P the error is W^T G^-1 e
+    and the covariance P+ = P - W^T W, symmetric by construction.
     """
     if not feet.any():
         return Correction(state, covariance)
@@ -195,33 +198,37 @@ def _compile_correction(fingerprint: int) -> Callable[..., tuple[FilterArrays, A
         _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
         feet = np.flatnonzero(used)
         size = 3 * len(feet)
-        right, spread, innovation = np.empty((size, ERROR_SIZE + 1)), np.zeros((size, size)), np.empty(size)
+        right, spread = np.empty((size, ERROR_SIZE + 1)), np.zeros((size, size))
         for row, leg in enumerate(feet):
             rows, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
-            innovation[rows] = values[leg]
             spread[rows, rows] = noise[leg]
             right[rows, :ERROR_SIZE] = covariance[foot : foot + 3] - covariance[:3]
             right[rows, ERROR_SIZE] = values[leg]
-        noise_of_feet = spread.copy()
         for row, leg in enumerate(feet):
             columns, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
             spread[:, columns] += right[:, foot : foot + 3] - right[:, :3]
-        solved = np.linalg.solve(spread, right)
-        gain = solved[:, :ERROR_SIZE].T.copy()
-        left = np.eye(ERROR_SIZE)
-        for row, leg in enumerate(feet):
-            columns, foot = slice(3 * row, 3 * row + 3), _FEET + 3 * leg
-            left[:, :3] += gain[:, columns]
-            left[:, foot : foot + 3] -= gain[:, columns]
-        joseph = left @ covariance @ left.T + gain @ noise_of_feet @ gain.T
-        position, velocity, rotation, centers, accelerometer, gyro = state
-        moved = moved_by(gain @ innovation, position, velocity, rotation, centers, accelerometer, gyro)
-        squared = 0.0
+        factorise(spread)
+        solve_factor(spread, right)  # G^-1 [H P, e] with S = G G^T
+        error, later, squared = np.zeros(ERROR_SIZE), np.empty_like(covariance), 0.0
         for row in range(size):
-            squared += innovation[row] * solved[row, ERROR_SIZE]
-        return moved, 0.5 * (joseph + joseph.T), squared
+            whitened = right[row, ERROR_SIZE]
+            squared += whitened * whitened
+            for i in range(ERROR_SIZE):
+                error[i] += right[row, i] * whitened
+        for i in range(ERROR_SIZE):
+            for j in range(i + 1):
+                value = covariance[i, j]
+                for row in range(size):
+                    value -= right[row, i] * right[row, j]
+                later[i, j] = value
+                later[j, i] = value
+        position, velocity, rotation, centers, accelerometer, gyro = state
+        moved = moved_by(error, position, velocity, rotation, centers, accelerometer, gyro)
+        return moved, later, squared
 
     return corrected
 
 
-_correct = _compile_correction(source_fingerprint(Path(__file__).parent))
+_correct = _compile_correction(
+    source_fingerprint(Path(__file__).parent) ^ source_fingerprint(Path(cholesky.__file__).parent)
+)
