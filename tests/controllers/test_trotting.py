@@ -1,4 +1,4 @@
-"""The hierarchical controller trots on its own model: feet that stick where they touch level ground at z = 0."""
+"""Controllers trot on their own model: feet that stick where they touch level ground at z = 0."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -7,6 +7,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 from controller_cases import controller_config, gait_schedule, integrated, moved_state, uniform_plan, with_loads
+from preset_cases import preset
 
 from quadlab.controllers.reduced_dynamics import reduce_dynamics
 from quadlab.controllers.telemetry import ControlTelemetry, LegMode
@@ -47,9 +48,11 @@ def touching(kinematics: Kinematics, standing: list[int]) -> list[int]:
 
 
 @lru_cache
-def trot(robot: RobotModel) -> tuple[TrackingController, tuple[RobotState, ...], tuple[ControlTelemetry, ...]]:
+def trot(
+    robot: RobotModel, name: str = "hierarchical"
+) -> tuple[TrackingController, tuple[RobotState, ...], tuple[ControlTelemetry, ...]]:
     """Controller after a trot on its own model, and states and telemetry of its ticks."""
-    controller = build_controller(controller_config(), robot)
+    controller = build_controller(preset(name), robot)
     states, ticks = zip(*rollout(robot, controller), strict=True)
     return controller, states, ticks
 
@@ -68,8 +71,9 @@ def rollout(robot: RobotModel, controller: TrackingController) -> Iterator[tuple
         state = integrated(robot, state, dynamics.accelerations(command.torques), controller.period_s)
 
 
-def test_trot_follows_its_plan(robot: RobotModel) -> None:
-    controller, states, ticks = trot(robot)
+@pytest.mark.parametrize("name", ["hierarchical", "projected_inverse_dynamics"])
+def test_trot_follows_its_plan(robot: RobotModel, name: str) -> None:
+    controller, states, ticks = trot(robot, name)
     assert controller.fallbacks == 0
     assert [event for tick in ticks for event in tick.events if "skipped" in event or "lost" in event] == []
     errors = np.array([tick.com_position_reference - tick.com_position for tick in ticks])
