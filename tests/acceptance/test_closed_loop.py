@@ -61,6 +61,14 @@ def test_trot_over_an_unseen_plank_and_through_a_push(tmp_path: Path) -> None:
     assert result.com_error_max_mm is not None and result.com_error_max_mm > 20.0, "the push was not felt"
 
 
+@pytest.mark.parametrize("center_x_m", [0.59, 0.71])
+def test_trot_over_an_unseen_plank_as_high_as_most_of_a_swing(center_x_m: float, tmp_path: Path) -> None:
+    """Feet come down early on the plank and late behind it; the plan's next pair waits for them."""
+    plank = ("scenario.terrain.0.height_m=0.10", f"scenario.terrain.0.center_x_m={center_x_m}")
+    result = run(tmp_path, "experiment=gehring2017_trot_plank", *plank)
+    assert result.status is TrialStatus.COMPLETED, result.status_reason
+
+
 def test_too_large_a_push_is_a_fall_and_no_exception(tmp_path: Path) -> None:
     result = run(tmp_path, "scenario=push", "scenario.pushes.0.force_n=2000", "scenario.pushes.0.start_s=1.0")
     assert result.status is TrialStatus.FELL

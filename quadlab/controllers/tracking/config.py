@@ -39,7 +39,8 @@ class ContactConfig(StrictModel):
         expected_touch_down: share of the swing at which the foot reaches the ground it expects; from then on it
             searches.
         latest_lift_off: share of a swing after which a lift-off that had to wait is skipped.
-        minimum_stance_legs: a leg lifts off only if so many others stand.
+        minimum_stance_legs: a leg lifts off only if so many others stand, and all that shall stand by plan; one that
+            lost its contact searches only if so many others stand.
         lost_contact_s: time without force after which a standing leg searches the ground in [s].
         settling_s: time after touch-down in which lost contact is ignored in [s].
         search_speed_mps: how fast a searching foot goes down in [m/s].

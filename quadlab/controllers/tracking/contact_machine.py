@@ -131,7 +131,7 @@ class ContactMachine:
             if state.foothold < completed:
                 self._skip(leg, completed)
         elif state.foothold == completed:
-            if self._others_standing(leg) >= self.config.minimum_stance_legs:
+            if self._may_lift_off(leg, time_s):
                 self._lift_off(leg, time_s, swing.end_s, foot)
             elif self._too_late(swing, time_s):
                 self._skip(leg, completed + 1)
@@ -172,6 +172,13 @@ class ContactMachine:
         if swing is not None and reached == completed:
             state.foothold = completed
             self._lift_off(leg, time_s, swing.end_s, foot)
+
+    def _may_lift_off(self, leg: int, time_s: float) -> bool:
+        """Whether enough others stand, among them all that the plan counts on: not any two legs can carry a trot."""
+        others = [other for other in range(LEG_COUNT) if other != leg]
+        counted_on = [other for other in others if self.schedule.swing_at(other, time_s)[1] is None]
+        complete = all(self.legs[other].mode is LegMode.STANCE for other in counted_on)
+        return complete and self._others_standing(leg) >= self.config.minimum_stance_legs
 
     def _too_late(self, swing: Swing, time_s: float) -> bool:
         return time_s > swing.start_s + self.config.latest_lift_off * swing.duration_s

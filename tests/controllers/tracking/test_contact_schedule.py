@@ -2,7 +2,21 @@
 
 import numpy as np
 import pytest
-from contact_scripts import PERIOD, RF, RH, SEARCH, STANCE, SWING, Loads, Script, diagonal_schedule, machine_for
+from contact_scripts import (
+    LF,
+    PERIOD,
+    RF,
+    RH,
+    SEARCH,
+    STANCE,
+    SWING,
+    Loads,
+    Script,
+    diagonal_schedule,
+    loaded_but,
+    machine_for,
+    one_leg_schedule,
+)
 from controller_cases import gait_schedule
 
 from quadlab.controllers.telemetry import LegMode
@@ -29,9 +43,24 @@ def test_lift_off_waits_until_enough_others_stand() -> None:
     assert leg.swing_phase(0.4) == pytest.approx(0.5, abs=0.01)
 
 
+def test_lift_off_waits_for_the_leg_that_shall_take_over() -> None:
+    """Both hind legs stand, but a fore leg that the plan counts on searches: the other fore leg has to carry on."""
+    script = Script(machine_for(one_leg_schedule(), minimum_stance_legs=2)).run(0.4, loaded_but(RF, 0.1, 0.3))
+    assert script.changes_of(RF) == [(0.12, SEARCH), (0.3, STANCE)]
+    assert script.changes_of(LF) == [(0.3, SWING)]
+    assert script.machine.legs[LF].touch_down_due_s == pytest.approx(0.5)
+
+
+def test_legs_of_a_pair_leave_together_when_the_other_pair_stands() -> None:
+    """A leg that shall swing as well need not stand first; the pair leaves at once when the late foot has landed."""
+    script = Script(machine_for(diagonal_schedule(), minimum_stance_legs=2)).run(0.35, loaded_but(RF, 0.1, 0.3))
+    assert script.changes_of(LF) == [(0.3, SWING)]
+    assert script.changes_of(RH) == [(0.3, SWING)]
+
+
 def test_search_can_begin_before_the_swing_is_over_by_plan() -> None:
     """LF shall land after 80 % of its swing; from then on it searches."""
-    script = Script(machine_for(diagonal_schedule(), expected_touch_down=0.8)).run(0.48, unsupported(0.6))
+    script = Script(machine_for(diagonal_schedule(), expected_touch_down=0.8)).run(0.48, loaded_but(LF, 0.21, 0.6))
     swing = script.machine.schedule.swings[0][0]
     begins_s = swing.start_s + 0.8 * swing.duration_s
     searches = [time for time, mode in script.changes_of(0) if mode is SEARCH]
