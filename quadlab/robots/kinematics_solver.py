@@ -8,12 +8,12 @@ import pinocchio as pin
 from quadlab.geometry.rotations import Array
 from quadlab.robots.kinematics import Kinematics, MotionPoints
 from quadlab.robots.kinematics_terms import (
-    base_terms,
-    com_terms,
+    Constants,
+    Workspace,
     contact_points,
-    dynamics_terms,
-    foot_terms,
+    empty_terms,
     pinocchio_coordinates,
+    write_terms,
 )
 from quadlab.robots.legs import JOINTS_PER_LEG, LEG_COUNT
 from quadlab.robots.pinocchio_model import PinocchioModel
@@ -37,14 +37,19 @@ class KinematicsSolver:
         self._data: Any = model.createData()
         self._foot_radius = foot_radius
         self._joints_of_legs = indexed.velocity_indices.reshape(LEG_COUNT, JOINTS_PER_LEG)
-        self._joint_damping = model.damping[indexed.velocity_indices].copy()
-        self._gravity = model.gravity.linear.copy()
-        self._mass = float(pin.computeTotalMass(model))
-        self._hips_in_base = np.array([model.jointPlacements[joint].translation for joint in indexed.hip_joints])
-        self._dynamics = (self._data.M, self._data.nle)
         self._com = (self._data.com[0], self._data.vcom[0], self._data.Jcom)
         self._jacobian = self._data.J
         self._feet = tuple(self._data.oMf[frame].translation for frame in indexed.foot_frames)
+        self._workspace: Workspace = (self._data.M, self._data.nle, self._com, self._jacobian, self._feet)
+        self._constants: Constants = (
+            indexed.order,
+            model.damping[indexed.velocity_indices].copy(),
+            model.gravity.linear.copy(),
+            float(pin.computeTotalMass(model)),
+            np.array([model.jointPlacements[joint].translation for joint in indexed.hip_joints]),
+            self._joints_of_legs,
+            foot_radius,
+        )
 
     def to_pinocchio(self, state: RobotState) -> tuple[Array, Array]:
         """Return configuration q, (19,), and velocity v, (18,), in Pinocchio's order and conventions."""
@@ -62,44 +67,36 @@ class KinematicsSolver:
 
     def solve(self, state: RobotState) -> Kinematics:
         """Compute kinematics and dynamics at ``state``."""
-        order, rotation = self._indexed.order, state.rotation_base_to_world
+        rotation, position = state.rotation_base_to_world, state.position_base_in_world
         q, v = self.to_pinocchio(state)
         pin.computeAllTerms(self._model, self._data, q, v)
         pin.updateFramePlacements(self._model, self._data)
-        velocity, mass_matrix, effects = dynamics_terms(*self._dynamics, v, order, self._joint_damping)
-        com_position, com_velocity, com_jacobian, com_bias = com_terms(
-            *self._com, effects, rotation, self._gravity, self._mass, order
-        )
-        base_jacobian, base_bias, base_angular_velocity, hips = base_terms(
-            rotation, v, state.position_base_in_world, self._hips_in_base
-        )
-        centers, positions, velocities, jacobians, bias, contact_jacobians, contact_bias, axes = foot_terms(
-            self._jacobian, v, self._feet, self._joints_of_legs, self._foot_radius
-        )
+        dynamics, com, base, feet = terms = empty_terms()
+        write_terms(self._workspace, self._constants, v, position, rotation, terms)
         return Kinematics(
-            generalized_velocity=velocity,
-            mass_matrix=mass_matrix,
-            nonlinear_effects=effects,
-            com_position=com_position,
-            com_velocity=com_velocity,
-            com_jacobian=com_jacobian,
-            com_bias=com_bias,
-            base_position=state.position_base_in_world,
+            generalized_velocity=dynamics[0],
+            mass_matrix=dynamics[1],
+            nonlinear_effects=dynamics[2],
+            com_position=com[0],
+            com_velocity=com[1],
+            com_jacobian=com[2],
+            com_bias=com[3],
+            base_position=position,
             base_rotation=rotation,
             base_linear_velocity=state.linear_velocity_base_in_world,
-            base_angular_velocity=base_angular_velocity,
-            base_jacobian=base_jacobian,
-            base_bias=base_bias,
-            foot_centers=centers,
-            foot_positions=positions,
-            foot_velocities=velocities,
-            foot_jacobians=jacobians,
-            foot_bias=bias,
-            contact_jacobians=contact_jacobians,
-            contact_bias=contact_bias,
+            base_angular_velocity=base[0],
+            base_jacobian=base[1],
+            base_bias=base[2],
+            foot_centers=feet[0],
+            foot_positions=feet[1],
+            foot_velocities=feet[2],
+            foot_jacobians=feet[3],
+            foot_bias=feet[4],
+            contact_jacobians=feet[5],
+            contact_bias=feet[6],
             joint_positions=state.joint_positions,
-            leg_joint_axes=axes,
-            hip_positions=hips,
+            leg_joint_axes=feet[7],
+            hip_positions=base[3],
         )
 
     def points(self, state: RobotState) -> MotionPoints:

@@ -15,6 +15,19 @@ from quadlab.jit import compiled, compiled_entry
 
 IndexArray: TypeAlias = NDArray[np.intp]
 
+DynamicsTerms: TypeAlias = tuple[Array, Array, Array]
+"""generalized_velocity, mass_matrix, nonlinear_effects."""
+ComTerms: TypeAlias = tuple[Array, Array, Array, Array]
+"""com_position, com_velocity, com_jacobian, com_bias."""
+BaseTerms: TypeAlias = tuple[Array, Array, Array, Array]
+"""base_angular_velocity, base_jacobian, base_bias, hip_positions."""
+FootTerms: TypeAlias = tuple[Array, Array, Array, Array, Array, Array, Array, Array]
+"""foot_centers, foot_positions, foot_velocities, foot_jacobians, foot_bias, contact_jacobians, contact_bias, axes."""
+Workspace: TypeAlias = tuple[Array, Array, tuple[Array, Array, Array], Array, tuple[Array, ...]]
+"""Pinocchio's M, nle, (com, vcom, Jcom), J0 and the centres of the foot spheres."""
+Constants: TypeAlias = tuple[IndexArray, Array, Array, float, Array, IndexArray, float]
+"""Order of u in v, joint damping, gravity, mass, hips in base axes, joints of the legs in v, foot radius."""
+
 _SIZE = 18
 _BASE = 6
 _LEG_JOINTS = 3
@@ -61,18 +74,12 @@ def pinocchio_coordinates(
     return q, v
 
 
-@compiled_entry
-def dynamics_terms(
-    mass_matrix: Array, nonlinear_effects: Array, v: Array, order: IndexArray, damping: Array
-) -> tuple[Array, Array, Array]:
-    """Return u (18,), M (18, 18) and h (18,) in quadlab's order.
-
-    Args:
-        mass_matrix, nonlinear_effects, v: of Pinocchio.
-        order: u = v[order].
-        damping: viscous friction of the joints, (12,).
-    """
-    u, mass, effects = np.empty(_SIZE), np.empty((_SIZE, _SIZE)), np.empty(_SIZE)
+@compiled
+def _write_dynamics(
+    mass_matrix: Array, nonlinear_effects: Array, v: Array, order: IndexArray, damping: Array, result: DynamicsTerms
+) -> None:
+    """Write u (18,), M (18, 18) and h (18,) in quadlab's order, u = v[order]."""
+    u, mass, effects = result
     for row in range(_SIZE):
         u[row] = v[order[row]]
         effects[row] = nonlinear_effects[order[row]]
@@ -80,53 +87,53 @@ def dynamics_terms(
             effects[row] += damping[row - _BASE] * u[row]
         for column in range(_SIZE):
             mass[row, column] = mass_matrix[order[row], order[column]]
-    return u, mass, effects
 
 
-@compiled_entry
-def com_terms(
-    position: Array,
-    velocity: Array,
-    jacobian: Array,
-    nonlinear_effects: Array,
+@compiled
+def _write_com(
+    com: tuple[Array, Array, Array],
+    effects: Array,
     rotation: Array,
     gravity: Array,
     mass: float,
     order: IndexArray,
-) -> tuple[Array, Array, Array, Array]:
-    """Return position (3,), velocity (3,), Jacobian (3, 18) and bias (3,) of the centre of mass.
+    result: ComTerms,
+) -> None:
+    """Write position (3,), velocity (3,), Jacobian (3, 18) and bias (3,) of the centre of mass.
 
     The base rows of h are what has to push the robot at u_dot = 0, in base axes: R h_B = m (J_dot u - g).
     """
-    bias = gravity.copy()
+    position, velocity, jacobian, bias = result
+    position[:] = com[0]
+    velocity[:] = com[1]
+    bias[:] = gravity
     for row in range(3):
         for column in range(3):
-            bias[row] += rotation[row, column] * nonlinear_effects[column] / mass
-    ordered = np.empty((3, _SIZE))
+            bias[row] += rotation[row, column] * effects[column] / mass
     for row in range(3):
         for column in range(_SIZE):
-            ordered[row, column] = jacobian[row, order[column]]
-    return position.copy(), velocity.copy(), ordered, bias
+            jacobian[row, column] = com[2][row, order[column]]
 
 
-@compiled_entry
-def base_terms(rotation: Array, v: Array, position: Array, hips_in_base: Array) -> tuple[Array, Array, Array, Array]:
-    """Return Jacobian (6, 18) and bias (6,) of the base origin, omega (3,) and the hips (4, 3), all in world axes.
+@compiled
+def _write_base(rotation: Array, v: Array, position: Array, hips_in_base: Array, result: BaseTerms) -> None:
+    """Write omega (3,), Jacobian (6, 18) and bias (6,) of the base origin and the hips (4, 3), all in world axes.
 
     p_ddot = R (v_dot + omega x v), omega_dot = R omega_B_dot.
     """
-    jacobian, bias, omega = np.zeros((6, _SIZE)), np.zeros(6), np.zeros(3)
+    omega, jacobian, bias, hips = result
+    jacobian[:] = 0.0
     jacobian[:3, :3] = rotation
     jacobian[3:, 3:6] = rotation
+    omega[:] = 0.0
+    bias[:] = 0.0
     centripetal = np.empty(3)
     cross(v[3:6], v[:3], centripetal)
     add_product(rotation, centripetal, bias[:3])
     add_product(rotation, v[3:6], omega)
-    hips = np.empty_like(hips_in_base)
     for leg in range(len(hips)):
         hips[leg] = position
         add_product(rotation, hips_in_base[leg], hips[leg])
-    return jacobian, bias, omega, hips
 
 
 @compiled
@@ -158,11 +165,11 @@ def _foot_bias(jacobian: Array, v: Array, joints: IndexArray, foot: Array, bias:
     bias += product
 
 
-@compiled_entry
-def foot_terms(
-    jacobian: Array, v: Array, feet: tuple[Array, ...], joints: IndexArray, radius: float
-) -> tuple[Array, Array, Array, Array, Array, Array, Array, Array]:
-    """Return the terms of the sphere centres and of the contact points below them.
+@compiled
+def _write_feet(
+    jacobian: Array, v: Array, feet: tuple[Array, ...], joints: IndexArray, radius: float, result: FootTerms
+) -> None:
+    """Write the terms of the sphere centres and of the contact points below them.
 
     Args:
         jacobian: J0 of Pinocchio, (6, 18).
@@ -170,17 +177,15 @@ def foot_terms(
         feet: centres of the foot spheres, four of (3,).
         joints: indices of the joints of each leg in v, (4, 3).
         radius: of the spheres in [m].
-
-    Returns:
-        foot_centers, foot_positions, foot_velocities (4, 3), foot_jacobians (4, 3, 18), foot_bias (4, 3),
-        contact_jacobians (4, 3, 18), contact_bias (4, 3), leg_joint_axes (4, 3, 3), as in ``Kinematics``.
+        result: foot_centers, foot_positions, foot_velocities (4, 3), foot_jacobians (4, 3, 18), foot_bias (4, 3),
+            contact_jacobians (4, 3, 18), contact_bias (4, 3), leg_joint_axes (4, 3, 3), as in ``Kinematics``.
     """
-    legs = len(feet)
-    centers, velocities, bias = np.empty((legs, 3)), np.zeros((legs, 3)), np.empty((legs, 3))
-    linear, axes = np.zeros((legs, 3, _SIZE)), np.empty((legs, 3, _LEG_JOINTS))
-    contact, contact_bias, angular_bias = np.zeros((legs, 3, _SIZE)), np.empty((legs, 3)), np.empty(3)
-    column = np.empty(3)
-    for leg in range(legs):
+    centers, positions, velocities, linear, bias, contact, contact_bias, axes = result
+    velocities[:] = 0.0
+    linear[:] = 0.0
+    contact[:] = 0.0
+    angular_bias, column = np.empty(3), np.empty(3)
+    for leg in range(len(feet)):
         foot = feet[leg]
         centers[leg] = foot
         for index in range(_BASE + _LEG_JOINTS):
@@ -201,9 +206,51 @@ def foot_terms(
         contact_bias[leg] = bias[leg]
         contact_bias[leg, 0] -= radius * angular_bias[1]
         contact_bias[leg, 1] += radius * angular_bias[0]
-    positions = centers.copy()
-    positions[:, 2] -= radius
-    return centers, positions, velocities, linear, bias, contact, contact_bias, axes
+        positions[leg] = foot
+        positions[leg, 2] -= radius
+
+
+@compiled_entry
+def write_terms(
+    workspace: Workspace,
+    constants: Constants,
+    v: Array,
+    position: Array,
+    rotation: Array,
+    result: tuple[DynamicsTerms, ComTerms, BaseTerms, FootTerms],
+) -> None:
+    """Write all terms of ``Kinematics`` that do not stand in the state already.
+
+    Arrays to write to are an argument, since every array that a compiled function returns costs more than its numbers.
+
+    Args:
+        workspace: of Pinocchio, computed for this state.
+        constants: of the robot.
+        v: Pinocchio's velocity, (18,).
+        position, rotation: of the base, (3,) in [m] and (3, 3).
+        result: arrays from ``empty_terms``.
+    """
+    mass_matrix, nonlinear_effects, com, jacobian, feet = workspace
+    order, damping, gravity, mass, hips_in_base, joints, radius = constants
+    dynamics, of_com, of_base, of_feet = result
+    _write_dynamics(mass_matrix, nonlinear_effects, v, order, damping, dynamics)
+    _write_com(com, dynamics[2], rotation, gravity, mass, order, of_com)
+    _write_base(rotation, v, position, hips_in_base, of_base)
+    _write_feet(jacobian, v, feet, joints, radius, of_feet)
+
+
+def empty_terms() -> tuple[DynamicsTerms, ComTerms, BaseTerms, FootTerms]:
+    """Return arrays for ``write_terms``; their numbers are arbitrary."""
+    empty, point, points, jacobians = np.empty, 3, (4, 3), (4, 3, _SIZE)
+    return (
+        (empty(_SIZE), empty((_SIZE, _SIZE)), empty(_SIZE)),
+        (empty(point), empty(point), empty((3, _SIZE)), empty(point)),
+        (empty(point), empty((6, _SIZE)), empty(6), empty(points)),
+        (
+            *(empty(points), empty(points), empty(points), empty(jacobians), empty(points)),
+            *(empty(jacobians), empty(points), empty((4, 3, _LEG_JOINTS))),
+        ),
+    )
 
 
 @compiled_entry

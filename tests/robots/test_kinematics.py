@@ -116,7 +116,7 @@ def test_points_are_those_of_the_whole_kinematics(robot: RobotModel) -> None:
 
 def test_kinematics_keep_their_numbers_when_the_next_state_is_computed(robot: RobotModel) -> None:
     first = robot.kinematics(moving_state(robot))
-    kept = {name: np.copy(value) for name, value in vars(first).items()}
+    kept = {name: np.copy(value) for name, value in first._asdict().items()}
     robot.kinematics(robot.nominal_state())
     for name, value in kept.items():
         np.testing.assert_array_equal(getattr(first, name), value, err_msg=name)

@@ -1,7 +1,7 @@
 """Limits on positions: their rows bind exactly where the second-order prediction meets the bound."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -106,7 +106,7 @@ def test_a_leg_that_reaches_too_far_pulls_its_hip_down(robot: RobotModel, stance
     kinematics = robot.kinematics(robot.nominal_state())
     depth = np.zeros((4, 3))
     depth[1, 2] = 0.3 * robot.nominal_state().position_base_in_world[2]
-    in_a_hole = replace(kinematics, foot_positions=kinematics.foot_positions - depth)
+    in_a_hole = kinematics._replace(foot_positions=kinematics.foot_positions - depth)
     rows = rows_of("limb_extension", in_a_hole, reference_at(robot, in_a_hole, stance))
     assert rows.upper[1] < 0.0
     assert np.all(rows.upper[[0, 2, 3]] > 0.0)
@@ -120,7 +120,7 @@ def test_a_leg_that_is_squeezed_pushes_its_hip_up(robot: RobotModel) -> None:
     kinematics = robot.kinematics(robot.nominal_state())
     height = np.zeros((4, 3))
     height[2, 2] = 0.6 * robot.nominal_state().position_base_in_world[2]
-    on_a_box = replace(kinematics, foot_positions=kinematics.foot_positions + height)
+    on_a_box = kinematics._replace(foot_positions=kinematics.foot_positions + height)
     rows = rows_of("limb_extension", on_a_box, reference_at(robot, on_a_box))
     assert rows.lower[2] > 0.0
     assert np.all(rows.lower[[0, 1, 3]] < 0.0)
@@ -130,7 +130,7 @@ def test_footprint_counts_standing_feet_only(robot: RobotModel) -> None:
     kinematics = robot.kinematics(disturbed_state(robot, 0))
     raised = kinematics.foot_positions.copy()
     raised[[0, 3], 2] += 0.2
-    changed = replace(kinematics, foot_positions=raised)
+    changed = kinematics._replace(foot_positions=raised)
     diagonal = [1, 2]
     expected = rows_of("height_over_footprint", kinematics, reference_at(robot, kinematics, diagonal))
     rows = rows_of("height_over_footprint", changed, reference_at(robot, changed, diagonal))
