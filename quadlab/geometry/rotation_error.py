@@ -10,12 +10,12 @@ from quadlab.jit import compiled_entry
 
 def rotation_error(rotation: Array, other: Array) -> Array:
     """Return log(rotation other^T), (3,) in [rad]: the turn from ``other`` to ``rotation``, both (3, 3)."""
-    error = _error_below_half_turn(rotation, other)
+    error = error_below_half_turn(rotation, other)
     return rotation_log(rotation @ other.T) if math.isnan(error[0]) else error
 
 
 @compiled_entry
-def _error_below_half_turn(rotation: Array, other: Array) -> Array:
+def error_below_half_turn(rotation: Array, other: Array) -> Array:
     """Return the rotation vector; NaN near half a turn, where its antisymmetric part does not know the axis."""
     turn = np.zeros((3, 3))
     for i in range(3):

@@ -1,33 +1,62 @@
 """Orientation of the base, as yaw and as roll and pitch (Bellicoso 2016, Eq. 18, with three rotational rows)."""
 
 import math
+from collections.abc import Callable
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
+from quadlab import geometry
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
+from quadlab.controllers.tasks.gains import TrackingGains
 from quadlab.controllers.tasks.task import TaskRows, Variable, equation
-from quadlab.geometry.rotation_error import rotation_error
+from quadlab.geometry.rotation_error import error_below_half_turn, rotation_error
 from quadlab.geometry.rotations import Array
-from quadlab.jit import compiled_entry
+from quadlab.jit import compiled_entry, source_fingerprint
 from quadlab.robots.kinematics import Kinematics
-
-_ZERO = np.zeros(3)
 
 
 def _angular_target(gains: TrackingGains, kinematics: Kinematics, reference: ControlReference) -> Array:
     """Return what J_omega u_dot shall be in world axes, (3,) in [rad/s^2]; the error is R_ref boxminus R."""
-    error = rotation_error(reference.base_rotation, kinematics.base_rotation)
-    return tracking_target(
+    target = _target_below_half_turn(
         gains.proportional_per_s2,
         gains.derivative_per_s,
-        _ZERO,
+        (reference.base_rotation, kinematics.base_rotation),
         (reference.base_angular_velocity, kinematics.base_angular_velocity),
-        (error, _ZERO),
-        kinematics.base_bias[3:],
+        kinematics.base_bias,
     )
+    if not math.isnan(target[0]):
+        return target
+    error = rotation_error(reference.base_rotation, kinematics.base_rotation)
+    velocity_error = reference.base_angular_velocity - kinematics.base_angular_velocity
+    return np.asarray(gains.acceleration(0.0, velocity_error, error) - kinematics.base_bias[3:])
+
+
+def _compile_target(fingerprint: int) -> Callable[..., Array]:
+    @compiled_entry
+    def target_below_half_turn(
+        proportional_per_s2: float,
+        derivative_per_s: float,
+        rotations: tuple[Array, Array],
+        velocities: tuple[Array, Array],
+        base_bias: Array,
+    ) -> Array:
+        """Return the target of ``_angular_target``; NaN near half a turn. Pairs are reference and measured."""
+        _ = fingerprint  # a closure variable, so that the cached machine code follows a change of the error
+        error = error_below_half_turn(rotations[0], rotations[1])
+        target = np.empty(3)
+        for axis in range(3):
+            velocity_error = velocities[0][axis] - velocities[1][axis]
+            commanded = derivative_per_s * velocity_error + proportional_per_s2 * error[axis]
+            target[axis] = commanded - base_bias[3 + axis]
+        return target
+
+    return target_below_half_turn
+
+
+_target_below_half_turn = _compile_target(source_fingerprint(Path(geometry.__file__).parent))
 
 
 @register("task", "base_yaw")
