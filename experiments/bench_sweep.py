@@ -92,7 +92,7 @@ def main() -> int:
             sys.stdout.flush()
         sys.stdout.write(f"two workers do {statistics.median(gains):.2f} times the work of one\n")
         sys.stdout.write(
-            f"a sweep of {_FEW} trials takes {statistics.median(starts):.1f} s longer than they do alone\n"
+            f"a sweep takes {statistics.median(starts):.1f} s to start with {_FEW} trials\n"
         )
         sys.stdout.write(f"every further trial takes {100.0 * statistics.median(overheads):.1f} % longer than alone\n")
         for count in range(arguments.many):
