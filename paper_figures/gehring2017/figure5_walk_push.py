@@ -20,8 +20,8 @@ ARTEFACT = Artefact("G-F5", "Gehring 2017, Fig. 5", "Lateral walk pushed sideway
 NEEDED_MPS = (0.6, 1.0)
 """Smallest and median change of velocity that counts as good."""
 WEAKEST = (
-    "The weakest push, to the right and ahead at 5 s, goes towards the right fore leg as it lifts off: its foot comes down "
-    "when the plan says, and by then the CoM has passed it."
+    "The weakest push, to the right and ahead at 5 s, goes towards the right fore leg as it lifts off: its foot comes "
+    "down when the plan says, and by then the CoM has passed it."
 )
 
 

@@ -19,8 +19,8 @@ YAW_BOUND_DEG = 2.5
 NEEDED_MPS = (0.6, 1.2)
 """Smallest and median change of velocity that counts as good for a trot straight on."""
 WEAKEST = (
-    "Where one was followed, to the left and back at 1.8 s, the CoM asked for an acceleration that two feet cannot give, and "
-    "the base gave way in height."
+    "Where one was followed, to the left and back at 1.8 s, the CoM asked for an acceleration that two feet cannot "
+    "give, and the base gave way in height."
 )
 DEGREES_A_STRIDE = 20.0
 
