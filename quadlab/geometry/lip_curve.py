@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from quadlab.geometry.curve import piece_at
 from quadlab.geometry.rotations import Array
-from quadlab.jit import compiled_entry
 
 
 @dataclass(frozen=True)
@@ -67,7 +66,9 @@ class LipCurve:
 
     def motion(self, time_s: float) -> Array:
         """Return value, first and second time derivative at ``time_s``, (3, d)."""
-        return _motion(self.knots, self.coefficients, self.rate, time_s)
+        from quadlab.geometry.curve_motion import lip_motion  # noqa: PLC0415
+
+        return lip_motion(self.knots, self.coefficients, self.rate, time_s)
 
     def _spans(self, time_s: float) -> bool:
         return self._knot_list[0] <= time_s <= self._knot_list[-1]
@@ -84,21 +85,3 @@ class LipCurve:
         if derivative == 1:
             value += slope
         return value
-
-
-@compiled_entry
-def _motion(knots: Array, coefficients: Array, rate: float, time_s: float) -> Array:
-    """Return the rows of ``LipCurve.motion``."""
-    inside = min(max(time_s, knots[0]), knots[-1])
-    piece = np.searchsorted(knots[1:-1], inside, side="right")
-    local, size = inside - knots[piece], coefficients.shape[2]
-    even, odd = math.cosh(rate * local), math.sinh(rate * local)
-    motion = np.zeros((3, size))
-    for axis in range(size):
-        offset, slope, p, q = coefficients[piece, :, axis]
-        pendulum = even * p + odd * q
-        motion[0, axis] = pendulum + (offset + local * slope)
-        if inside == time_s:
-            motion[1, axis] = rate * (odd * p + even * q) + slope
-            motion[2, axis] = rate * rate * pendulum
-    return motion

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from quadlab.geometry.curve import piece_at
 from quadlab.geometry.rotations import Array
-from quadlab.jit import compiled_entry
 
 
 @dataclass(frozen=True)
@@ -61,8 +60,10 @@ class PiecewisePolynomial:
 
     def motion(self, time_s: float) -> Array:
         """Return value, first and second time derivative at ``time_s``, (3, d)."""
+        from quadlab.geometry.curve_motion import spline_motion  # noqa: PLC0415
+
         values, rates, accelerations = self._derivatives[:3]
-        return _motion(self.knots, values, rates, accelerations, time_s)
+        return spline_motion(self.knots, values, rates, accelerations, time_s)
 
     def _spans(self, time_s: float) -> bool:
         return self._knot_list[0] <= time_s <= self._knot_list[-1]
@@ -87,22 +88,6 @@ class PiecewisePolynomial:
     def locate(self, time_s: float) -> tuple[int, float]:
         """Return (piece, local time in [s]) that hold at ``time_s``; a knot belongs to the later piece."""
         return piece_at(self._knot_list, time_s)
-
-
-@compiled_entry
-def _motion(knots: Array, values: Array, rates: Array, accelerations: Array, time_s: float) -> Array:
-    """Return the rows of ``PiecewisePolynomial.motion`` by Horner's scheme, given the coefficients of each row."""
-    inside = min(max(time_s, knots[0]), knots[-1])
-    piece = np.searchsorted(knots[1:-1], inside, side="right")
-    local, size = inside - knots[piece], values.shape[2]
-    motion = np.zeros((3, size))
-    for row, table in enumerate((values, rates, accelerations)):
-        if row > 0 and inside != time_s:
-            break
-        for power in range(table.shape[1] - 1, -1, -1):
-            for axis in range(size):
-                motion[row, axis] = motion[row, axis] * local + table[piece, power, axis]
-    return motion
 
 
 def quintic_between(start: Array, end: Array, duration_s: float) -> Array:
