@@ -91,9 +91,7 @@ def main() -> int:
             sys.stdout.write(f"  in one process {alone:.1f} s, one worker {one:.1f} s, two workers {two:.1f} s\n")
             sys.stdout.flush()
         sys.stdout.write(f"two workers do {statistics.median(gains):.2f} times the work of one\n")
-        sys.stdout.write(
-            f"a sweep takes {statistics.median(starts):.1f} s to start with {_FEW} trials\n"
-        )
+        sys.stdout.write(f"a sweep takes {statistics.median(starts):.1f} s to start with {_FEW} trials\n")
         sys.stdout.write(f"every further trial takes {100.0 * statistics.median(overheads):.1f} % longer than alone\n")
         for count in range(arguments.many):
             seconds(in_this_process, [trot(2.0, count)])
