@@ -92,7 +92,7 @@ def predict(
         period_s: T in [s].
         foot_radius: rho in [m].
     """
-    arrays, dynamics = _predict(*state.arrays, reading.gyro, reading.accelerometer, foot_spins, period_s, foot_radius)
+    arrays, dynamics = _predict(state.arrays, reading.gyro, reading.accelerometer, foot_spins, period_s, foot_radius)
     return Prediction(FilterState(*arrays), dynamics)
 
 
@@ -172,12 +172,7 @@ def _error_dynamics(
 def _compile_prediction(fingerprint: int) -> Callable[..., tuple[FilterArrays, Array]]:
     @compiled_entry
     def step(
-        position: Array,
-        velocity: Array,
-        rotation: Array,
-        feet: Array,
-        accelerometer_bias: Array,
-        gyro_bias: Array,
+        state: FilterArrays,
         gyro: Array,
         accelerometer: Array,
         foot_spins: Array,
@@ -186,6 +181,7 @@ def _compile_prediction(fingerprint: int) -> Callable[..., tuple[FilterArrays, A
     ) -> tuple[FilterArrays, Array]:
         """Return the arrays of the state after the step and F; see ``predict``."""
         _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
+        position, velocity, rotation, feet, accelerometer_bias, gyro_bias = state
         angular_velocity = gyro - gyro_bias
         mean_rotation = rotation @ rotation_exp(0.5 * period_s * angular_velocity)
         force = mean_rotation @ (accelerometer - accelerometer_bias)
