@@ -20,7 +20,7 @@ from quadlab.estimation.error_state import (
     rotation_exp,
 )
 from quadlab.gaits.schedule import BoolArray
-from quadlab.geometry.rotations import Array, skew
+from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled, compiled_entry, inlined, source_fingerprint
 from quadlab.planners.problem import GRAVITY
 from quadlab.robots.legs import LEG_COUNT
@@ -28,7 +28,6 @@ from quadlab.robots.sensing import SensorReading
 
 _UP = np.array([0.0, 0.0, 1.0])
 _GRAVITY = -GRAVITY * _UP
-_CROSS_UP = skew(_UP)
 _VELOCITY, _ORIENTATION, _FEET = VELOCITY.start, ORIENTATION.start, FEET.start
 _ACCELEROMETER, _GYRO = ACCELEROMETER_BIAS.start, GYRO_BIAS.start
 """First rows of the blocks of the error, as compiled functions take them."""

@@ -257,7 +257,7 @@ def empty_terms() -> tuple[DynamicsTerms, ComTerms, BaseTerms, FootTerms]:
 def contact_points(
     jacobian: Array, v: Array, feet: tuple[Array, ...], joints: IndexArray, radius: float
 ) -> tuple[Array, Array]:
-    """Return foot_positions and foot_contact_velocities, (4, 3) each, as in ``MotionPoints``; see ``foot_terms``."""
+    """Return foot_positions and foot_contact_velocities, (4, 3) each, as in ``MotionPoints``; see ``_write_feet``."""
     legs = len(feet)
     positions, velocities = np.empty((legs, 3)), np.empty((legs, 3))
     linear, angular = np.empty(3), np.empty(3)

@@ -10,7 +10,7 @@ import numpy as np
 from quadlab import geometry
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.gains import TrackingGains
+from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
 from quadlab.controllers.tasks.task import TaskRows, Variable, equation
 from quadlab.geometry.rotation_error import error_below_half_turn, rotation_error
 from quadlab.geometry.rotations import Array
@@ -44,19 +44,17 @@ def _compile_target(fingerprint: int) -> Callable[..., Array]:
         base_bias: Array,
     ) -> Array:
         """Return the target of ``_angular_target``; NaN near half a turn. Pairs are reference and measured."""
-        _ = fingerprint  # a closure variable, so that the cached machine code follows a change of the error
+        _ = fingerprint  # a closure variable, so that the cached machine code follows a change of what is called
         error = error_below_half_turn(rotations[0], rotations[1])
-        target = np.empty(3)
-        for axis in range(3):
-            velocity_error = velocities[0][axis] - velocities[1][axis]
-            commanded = derivative_per_s * velocity_error + proportional_per_s2 * error[axis]
-            target[axis] = commanded - base_bias[3 + axis]
-        return target
+        zero = np.zeros(3)
+        return tracking_target(proportional_per_s2, derivative_per_s, zero, velocities, (error, zero), base_bias[3:])
 
     return target_below_half_turn
 
 
-_target_below_half_turn = _compile_target(source_fingerprint(Path(geometry.__file__).parent))
+_target_below_half_turn = _compile_target(
+    source_fingerprint(Path(__file__).parent) ^ source_fingerprint(Path(geometry.__file__).parent)
+)
 
 
 @register("task", "base_yaw")
