@@ -28,7 +28,7 @@ from quadlab.estimation.error_state import (
     FilterState,
     box_plus,
 )
-from quadlab.estimation.estimate import Estimate, FilterReport
+from quadlab.estimation.estimate import Estimate, FilterReport, ReadSensors
 from quadlab.estimation.leg_kinematics import LegKinematics, LegModel
 from quadlab.estimation.prediction import ProcessNoiseConfig, predict, propagate
 from quadlab.gaits.schedule import BoolArray
@@ -110,8 +110,9 @@ class ExtendedKalmanFilter:
         self._joint_velocities = np.zeros(3 * LEG_COUNT)
         self._foot_spins = np.zeros((LEG_COUNT, 3))
 
-    def start(self, reading: SensorReading, true_state: RobotState) -> Estimate:
+    def start(self, read_sensors: ReadSensors, true_state: RobotState) -> Estimate:
         """Begin at ``true_state``, whose position and heading define the world, with errors in tilt and velocity."""
+        reading = read_sensors()
         legs = self._legs.kinematics(reading.joint_positions, reading.joint_velocities)
         rotation, position = true_state.rotation_base_to_world, true_state.position_base_in_world
         truth = FilterState(
@@ -134,8 +135,9 @@ class ExtendedKalmanFilter:
         report = self._report(Correction(self.state, self.covariance), np.zeros(LEG_COUNT, dtype=bool), 0.0)
         return Estimate(self._robot_state(reading, reading.foot_forces_in_base @ self.state.rotation.T), report)
 
-    def update(self, reading: SensorReading, true_state: RobotState) -> Estimate:
-        """Return the estimate at ``reading``, one control period after the last; ``true_state`` is not looked at."""
+    def update(self, read_sensors: ReadSensors, true_state: RobotState) -> Estimate:
+        """Return the estimate one control period after the last; ``true_state`` is not looked at."""
+        reading = read_sensors()
         began = time.perf_counter()
         legs = self._legs.kinematics(reading.joint_positions, reading.joint_velocities)
         self._predict(reading, legs)

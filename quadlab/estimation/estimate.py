@@ -1,7 +1,8 @@
 """What an estimator hands on, and the interface of all estimators."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
@@ -52,16 +53,20 @@ class Estimate:
     report: FilterReport | None = None
 
 
+ReadSensors: TypeAlias = Callable[[], SensorReading]
+"""Reads the sensors, once a control tick."""
+
+
 class Estimator(Protocol):
     """From sensor readings to states, one a control tick."""
 
     sensors: SensorConfig | None
     """How good the sensors are that it is given; None for sensors without errors."""
 
-    def start(self, reading: SensorReading, true_state: RobotState) -> Estimate:
+    def start(self, read_sensors: ReadSensors, true_state: RobotState) -> Estimate:
         """Return the first estimate; ``true_state`` defines the world frame."""
         ...
 
-    def update(self, reading: SensorReading, true_state: RobotState) -> Estimate:
+    def update(self, read_sensors: ReadSensors, true_state: RobotState) -> Estimate:
         """Return the estimate at the next reading; only the truth may use ``true_state``."""
         ...

@@ -3,9 +3,8 @@
 from typing import Literal
 
 from quadlab.configuration import StrictModel, register
-from quadlab.estimation.estimate import Estimate
+from quadlab.estimation.estimate import Estimate, ReadSensors
 from quadlab.robots.model import RobotModel
-from quadlab.robots.sensing import SensorReading
 from quadlab.robots.state import RobotState
 
 
@@ -23,10 +22,10 @@ class TruthEstimator:
     def __init__(self, config: Config, robot: RobotModel, period_s: float, seed: int) -> None:
         self.config = config
 
-    def start(self, reading: SensorReading, true_state: RobotState) -> Estimate:
+    def start(self, read_sensors: ReadSensors, true_state: RobotState) -> Estimate:
         """Return ``true_state`` unchanged."""
         return Estimate(true_state)
 
-    def update(self, reading: SensorReading, true_state: RobotState) -> Estimate:
+    def update(self, read_sensors: ReadSensors, true_state: RobotState) -> Estimate:
         """Return ``true_state`` unchanged."""
         return Estimate(true_state)

@@ -60,6 +60,7 @@ class Simulator:
         self._pushes = tuple(self._schedule(push) for push in scenario.pushes)
         self._initial_state = initial_state(robot, scenario.initial_perturbation, seed)
         self._step = 0
+        self._looked = False
         self.reset()
 
     def _schedule(self, push: PushConfig) -> ScheduledPush:
@@ -108,6 +109,7 @@ class Simulator:
         Reading does not change the trial: the solver's warm start stays that of the last step.
         """
         mujoco.mj_forward(self.model, self._data)
+        self._looked = True
         return self._map.read_state(self._data, self.time_s)
 
     def advance(self, command: JointCommand, duration_s: float) -> None:
@@ -125,11 +127,20 @@ class Simulator:
         self._imu.restart()
         for step in range(steps):
             total = torques if command.drive is None else torques + self._drive_torques(command.drive, step)
-            self._data.ctrl[self._map.ctrl] = np.clip(total, -self._robot.torque_limits, self._robot.torque_limits)
+            limits = self._robot.torque_limits
+            self._data.ctrl[self._map.ctrl] = np.minimum(np.maximum(total, -limits), limits)
             self._apply_pushes()
-            mujoco.mj_step(self.model, self._data)
+            self._integrate()
             self._imu.add(self._data)
             self._step += 1
+
+    def _integrate(self) -> None:
+        """Make one step; what depends on positions and velocities alone is not computed again after a reading."""
+        if self._looked:
+            mujoco.mj_step2(self.model, self._data)
+        else:
+            mujoco.mj_step(self.model, self._data)
+        self._looked = False
 
     def _drive_torques(self, drive: JointDrive, step: int) -> Array:
         positions, velocities = self._map.joints(self._data)

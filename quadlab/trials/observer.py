@@ -10,6 +10,7 @@ from quadlab.controllers.telemetry import ControlTelemetry
 from quadlab.estimation.estimate import Estimate, Estimator
 from quadlab.robots.kinematics import MotionPoints
 from quadlab.robots.model import RobotModel
+from quadlab.robots.sensing import SensorReading
 from quadlab.robots.state import JointCommand, RobotState
 from quadlab.simulation.sensors import Sensors
 from quadlab.simulation.simulator import Simulator
@@ -31,11 +32,13 @@ class Observer:
         """Return the estimate at the simulator's present state; asking again at the same time changes nothing."""
         if self._latest is not None and self._latest.state.time_s == true_state.time_s:
             return self._latest
-        torques = JointCommand(self._simulator.applied_torques)
-        reading = self._sensors.read(true_state, self._simulator.imu(), torques)
         step = self._estimator.start if self._latest is None else self._estimator.update
-        self._latest = step(reading, true_state)
+        self._latest = step(lambda: self._read_sensors(true_state), true_state)
         return self._latest
+
+    def _read_sensors(self, true_state: RobotState) -> SensorReading:
+        torques = JointCommand(self._simulator.applied_torques)
+        return self._sensors.read(true_state, self._simulator.imu(), torques)
 
 
 def as_it_happened(

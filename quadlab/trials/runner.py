@@ -127,7 +127,7 @@ class ClosedLoop:
         command, telemetry = self._controller.tick(estimate.state)
         if replanned:
             telemetry = replace(telemetry, events=(replanned, *telemetry.events))
-        poses = BodyPoses(*self._simulator.body_poses())
+        poses = BodyPoses(*self._simulator.body_poses()) if recorder.draws(state.time_s) else None
         pushes = tuple(self._simulator.active_pushes())
         self._simulator.advance(command, self._controller.period_s)
         applied = JointCommand(self._simulator.applied_torques)

@@ -3,7 +3,7 @@
 import copy
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -123,9 +123,8 @@ def replay(
     estimates: list[Estimate] = []
     states, covariances = [], []
     for state, imu, command in ticks:
-        reading = sensors.read(state, imu, command)
         step = estimator.update if estimates else estimator.start
-        estimates.append(step(reading, state))
+        estimates.append(step(partial(sensors.read, state, imu, command), state))
         states.append(estimator.state)
         covariances.append(copy.copy(estimator.covariance))
     return Replay(tuple(tick[0] for tick in ticks), tuple(estimates), tuple(states), tuple(covariances), sensors)

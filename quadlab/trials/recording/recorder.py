@@ -91,17 +91,28 @@ class TrialRecorder:
         self._events = self._file.add_foxglove_channel(topics.EVENTS, Log)
         self._scene = SceneWriter(self._file, config.scene_rate_hz, plan, geoms)
 
-    def record(self, tick: TickRecord, bodies: BodyPoses) -> None:
+    def draws(self, time_s: float) -> bool:
+        """Return whether a tick at ``time_s`` in [s] is drawn and needs the poses of the bodies."""
+        return self._scene.is_due(nanoseconds(time_s))
+
+    def record(self, tick: TickRecord, bodies: BodyPoses | None) -> None:
         """Write one tick: its scalars always, what is drawn at the scene rate.
 
+        Args:
+            tick: one control tick.
+            bodies: at the start of the tick; None if the tick is not drawn, see ``draws``.
+
         Raises:
-            LogError: if the telemetry has a level that was not announced.
+            LogError: if the telemetry has a level that was not announced, or ``bodies`` is missing.
         """
         unknown = tick.telemetry.level_residuals.keys() - self._level_names
         if unknown:
             raise LogError(f"unknown level '{min(unknown)}'; announced: {', '.join(sorted(self._level_names))}")
         time_ns = nanoseconds(tick.state.time_s)
-        self._scene.record(tick, bodies, time_ns)
+        if self._scene.is_due(time_ns):
+            if bodies is None:
+                raise LogError(f"the tick at {tick.state.time_s:g} s is drawn and needs the poses of the bodies")
+            self._scene.draw(tick, bodies, time_ns)
         for channel, packer in self._packers:
             self._file.write(channel, time_ns, packer.pack(tick))
         for message in tick.telemetry.events:

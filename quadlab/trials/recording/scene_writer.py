@@ -40,10 +40,12 @@ class SceneWriter:
         self._robot = [geom for geom in geoms if geom.body != topics.WORLD_FRAME]
         self._channels = {topic: file.add_foxglove_channel(topic, kind) for topic, kind in SCENE_TOPICS.items()}
 
-    def record(self, tick: TickRecord, bodies: BodyPoses, time_ns: int) -> None:
-        """Draw ``tick`` if a period has passed since the last one that was drawn."""
-        if self._due_ns is not None and time_ns < self._due_ns:
-            return
+    def is_due(self, time_ns: int) -> bool:
+        """Return whether a period has passed at ``time_ns`` since the last tick that was drawn."""
+        return self._due_ns is None or time_ns >= self._due_ns
+
+    def draw(self, tick: TickRecord, bodies: BodyPoses, time_ns: int) -> None:
+        """Draw ``tick``; the next one is due a period later."""
         self._draw(topics.TRANSFORMS, transforms(tick, bodies, time_ns), time_ns)
         if self._due_ns is None:  # after /tf: viewers place locked shapes by the transforms they have seen so far
             self._due_ns = time_ns

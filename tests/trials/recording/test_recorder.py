@@ -123,6 +123,17 @@ def test_levels_must_be_announced_and_differ(tmp_path: Path) -> None:
         recorder(tmp_path / "b.mcap", log_config(), ("com x", "com-x"))
 
 
+def test_only_drawn_ticks_need_the_poses_of_the_bodies(tmp_path: Path) -> None:
+    with recorder(tmp_path / "trial.mcap", log_config()) as log:
+        assert log.draws(0.0)
+        log.record(tick_record(0), body_poses(0))
+        assert not log.draws(0.0025)
+        log.record(tick_record(1), None)
+        assert log.draws(0.02)
+        with pytest.raises(LogError, match=r"at 0.02 s is drawn and needs the poses"):
+            log.record(tick_record(8), None)
+
+
 def test_events_carry_their_level_and_the_push_is_announced(tmp_path: Path) -> None:
     path = tmp_path / "trial.mcap"
     with recorder(path, log_config()) as log:
