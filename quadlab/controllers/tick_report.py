@@ -28,18 +28,19 @@ def describe_tick(
     """
     reference = tracked.reference
     yaw, pitch, roll = euler_zyx(reference.base_rotation)
-    height_of_com_over_base = kinematics.com_position[2] - kinematics.base_position[2]
+    height_of_com_over_base = float(kinematics.com_position[2] - kinematics.base_position[2])
+    (x, y), (velocity_x, velocity_y) = reference.com_position.tolist(), reference.com_velocity.tolist()
     return ControlTelemetry(
         plan_time_s=tracked.plan_time_s,
         plan_pose_in_world=tracked.plan_pose_in_world,
         com_position=kinematics.com_position,
         com_velocity=kinematics.com_velocity,
-        com_position_reference=np.array([*reference.com_position, reference.base_height + height_of_com_over_base]),
-        com_velocity_reference=np.array([*reference.com_velocity, 0.0]),
+        com_position_reference=np.array([x, y, reference.base_height + height_of_com_over_base]),
+        com_velocity_reference=np.array([velocity_x, velocity_y, 0.0]),
         base_height_reference=reference.base_height,
         base_rpy_reference=np.array([roll, pitch, yaw]),
         cop_reference=tracked.torso_alignment.position(tracked.sample.cop),
-        terrain_plane=np.array([tracked.terrain.height, *tracked.terrain.slope]),
+        terrain_plane=np.array([tracked.terrain.height, *tracked.terrain.slope.tolist()]),
         foot_positions=kinematics.foot_positions,
         foot_position_references=reference.foot_positions,
         foot_contact_velocities=kinematics.contact_jacobians @ kinematics.generalized_velocity,

@@ -1,36 +1,43 @@
 """Where the plan lies in the world: the alignment of plan frame P and inertial frame I (Gehring 2017, III-A)."""
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from quadlab.geometry.rotations import Array, wrap_angle
 
 
-@dataclass(frozen=True)
-class PlanarPose:
+Point: TypeAlias = tuple[float, float]
+"""x and y in [m]; numbers of Python, since a tick moves a dozen points and arrays of two take longer."""
+
+
+class PlanarPose(NamedTuple):
     """A rotation about the vertical and a pair of points that it lays upon each other (Eq. 11-12).
 
     Attributes:
-        point_in_plan, point_in_world: the reference point R in both frames, (2,) in [m].
+        point_in_plan, point_in_world: the reference point R in both frames in [m].
         yaw: from plan axes to world axes in [rad].
     """
 
-    point_in_plan: Array
-    point_in_world: Array
+    point_in_plan: Point
+    point_in_world: Point
     yaw: float
 
     def position(self, position_in_plan: Array) -> Array:
         """Return a point of the plan, (2,) in [m], in the world."""
-        moved: Array = self.point_in_world + self.vector(position_in_plan - self.point_in_plan)
-        return moved
+        x, y = position_in_plan.tolist()
+        return np.array(self.moved(x, y))
 
     def vector(self, vector_in_plan: Array) -> Array:
         """Return a direction of the plan, (2,), in world axes."""
-        cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
-        x, y = vector_in_plan.tolist()  # numbers of Python: a tick turns a dozen vectors
-        return np.array([cosine * x - sine * y, sine * x + cosine * y])
+        x, y = vector_in_plan.tolist()
+        return np.array(self._turned(x, y))
+
+    def moved(self, x: float, y: float) -> Point:
+        """Return the point x, y of the plan in the world, all in [m]."""
+        dx, dy = self._turned(x - self.point_in_plan[0], y - self.point_in_plan[1])
+        return self.point_in_world[0] + dx, self.point_in_world[1] + dy
 
     def origin(self) -> Array:
         """Return x, y in [m] and yaw in [rad] of the plan frame in the world, (3,)."""
@@ -38,12 +45,17 @@ class PlanarPose:
 
     def pose(self, pose_in_plan: Array) -> Array:
         """Return x, y in [m] and yaw in [rad] in the world of a pose in the plan, both (3,)."""
-        return np.array([*self.position(pose_in_plan[:2]), pose_in_plan[2] + self.yaw])
+        x, y, yaw = pose_in_plan.tolist()
+        return np.array([*self.moved(x, y), yaw + self.yaw])
+
+    def _turned(self, x: float, y: float) -> Point:
+        cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
+        return cosine * x - sine * y, sine * x + cosine * y
 
 
 def identity_alignment() -> PlanarPose:
     """Return the alignment of a plan that lies where it was made."""
-    return PlanarPose(np.zeros(2), np.zeros(2), 0.0)
+    return PlanarPose((0.0, 0.0), (0.0, 0.0), 0.0)
 
 
 def feet_alignment(planned_feet: Array, measured_feet: Array) -> PlanarPose:
@@ -62,13 +74,19 @@ def base_alignment(
     planned_position: Array, planned_yaw: float, measured_position: Array, measured_yaw: float
 ) -> PlanarPose:
     """Align position, (2,) in [m], and heading in [rad] of the torso (its centre of mass serves as reference point)."""
-    return PlanarPose(planned_position, measured_position, wrap_angle(measured_yaw - planned_yaw))
+    planned, measured = _point(planned_position), _point(measured_position)
+    return PlanarPose(planned, measured, wrap_angle(measured_yaw - planned_yaw))
 
 
-def _feet_pose(feet: Array) -> tuple[Array, float]:
-    """Return the mean of the feet, (2,) in [m], and the direction from hind to fore feet in [rad]."""
+def _point(position: Array) -> Point:
+    x, y = position.tolist()
+    return x, y
+
+
+def _feet_pose(feet: Array) -> tuple[Point, float]:
+    """Return the mean of the feet in [m] and the direction from hind to fore feet in [rad]."""
     (x0, y0), (x1, y1), (x2, y2), (x3, y3) = feet.tolist()
-    mean = np.array([0.25 * (x0 + x1 + x2 + x3), 0.25 * (y0 + y1 + y2 + y3)])
+    mean = (0.25 * (x0 + x1 + x2 + x3), 0.25 * (y0 + y1 + y2 + y3))
     return mean, math.atan2(y0 + y1 - y2 - y3, x0 + x1 - x2 - x3)
 
 
@@ -94,6 +112,9 @@ class SmoothedAlignment:
         before, decay = self.current, math.exp(-period_s / self.time_constant_s)
         yaw_offset = wrap_angle(before.yaw - raw.yaw)
         turned = PlanarPose(raw.point_in_plan, raw.point_in_world, raw.yaw + yaw_offset)
-        offset = before.position(torso_in_plan) - turned.position(torso_in_plan)
-        self.current = PlanarPose(raw.point_in_plan, raw.point_in_world + decay * offset, raw.yaw + decay * yaw_offset)
+        torso = _point(torso_in_plan)
+        (x_before, y_before), (x_after, y_after) = before.moved(*torso), turned.moved(*torso)
+        x, y = raw.point_in_world
+        point_in_world = (x + decay * (x_before - x_after), y + decay * (y_before - y_after))
+        self.current = PlanarPose(raw.point_in_plan, point_in_world, raw.yaw + decay * yaw_offset)
         return self.current

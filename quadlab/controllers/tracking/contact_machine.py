@@ -70,6 +70,11 @@ class ContactMachine:
         return np.array([leg.mode is LegMode.STANCE for leg in self.legs])
 
     @property
+    def stance_points(self) -> Array:
+        """Where each leg touched down last, (4, 3) in [m]."""
+        return np.array([leg.stance_point for leg in self.legs])
+
+    @property
     def searching(self) -> bool:
         """Whether a leg is past its planned touch-down or has lost its contact."""
         return any(leg.mode is LegMode.SEARCH for leg in self.legs)
@@ -125,7 +130,7 @@ class ContactMachine:
     def _stand(self, leg: int, time_s: float, completed: int, swing: Swing | None, foot: Array) -> None:
         """Slip, lift off when due, skip what came too late."""
         state = self.legs[leg]
-        if math.dist(foot, state.stance_point) > self.config.slip_m:
+        if math.dist(foot.tolist(), state.stance_point.tolist()) > self.config.slip_m:
             state.stance_point = foot
         if swing is None:
             if state.foothold < completed:
@@ -144,9 +149,9 @@ class ContactMachine:
         if state.mode is not LegMode.STANCE:
             return
         state.unloaded_s = 0.0 if touches else state.unloaded_s + period_s
+        lost = state.unloaded_s > self.config.lost_contact_s
         settled = time_s - state.touch_down_s > self.config.settling_s
-        enough = self._others_standing(leg) >= self.config.minimum_stance_legs
-        if state.unloaded_s > self.config.lost_contact_s and settled and enough:
+        if lost and settled and self._others_standing(leg) >= self.config.minimum_stance_legs:
             self._begin_search(leg, foot, completes_swing=False)
             self._note(leg, "lost contact")
 

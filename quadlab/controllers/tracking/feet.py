@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 
 from quadlab.controllers.telemetry import LegMode
-from quadlab.controllers.tracking.alignment import PlanarPose
+from quadlab.controllers.tracking.alignment import PlanarPose, Point
 from quadlab.controllers.tracking.config import SwingConfig
 from quadlab.controllers.tracking.contact_machine import LegContact
 from quadlab.controllers.tracking.foothold import balance_correction, within_reach
@@ -23,6 +23,7 @@ from quadlab.robots.legs import LEG_COUNT
 
 _IDLE = np.full((3, LEG_COUNT, 3), np.nan)
 _STANCE, _SEARCH = int(LegMode.STANCE), int(LegMode.SEARCH)
+_NO_FLIGHT = (_STANCE, *(0.0,) * 8)
 
 Lengths: TypeAlias = tuple[float, float, float, float]
 """Apex, depth below the ground, reach forward and sideways in [m]."""
@@ -84,7 +85,7 @@ class FootPlanner:
         return _motions(
             np.array([self._flight(number, leg, plan_time_s) for number, leg in enumerate(legs)]),
             plan_rate,
-            (alignment.point_in_plan, alignment.point_in_world, alignment.yaw),
+            tuple(alignment),
             (kinematics.com_position, kinematics.com_velocity, com_velocity_reference),
             kinematics.base_rotation,
             (terrain.origin, terrain.height, terrain.slope),
@@ -96,6 +97,8 @@ class FootPlanner:
 
     def _flight(self, number: int, leg: LegContact, plan_time_s: float) -> tuple[float, ...]:
         """Return what the motion of a leg depends on: a row of ``flights`` in ``_compile_motions``."""
+        if leg.mode is LegMode.STANCE:
+            return _NO_FLIGHT
         points = self.footholds[number]
         x, y, _ = points[min(leg.foothold + 1, len(points) - 1)].tolist()
         phase = min(1.0, leg.swing_phase(plan_time_s))
@@ -107,7 +110,7 @@ def _compile_motions(fingerprint: int) -> Callable[..., Array]:
     def motions(
         flights: Array,
         plan_rate: float,
-        alignment: tuple[Array, Array, float],
+        alignment: tuple[Point, Point, float],
         com: tuple[Array, Array, Array],
         rotation: Array,
         terrain: tuple[Array, float, Array],
@@ -122,7 +125,7 @@ def _compile_motions(fingerprint: int) -> Callable[..., Array]:
             flights: per leg mode, phase, duration in [s], search depth in [m], lift-off point (3) in [m] and planned
                 foothold (2) in [m] in the plan frame, (4, 9).
             plan_rate: seconds of the plan in a second.
-            alignment: point in the plan and in the world, (2,) each, and yaw.
+            alignment: point in the plan and in the world in [m], and yaw.
             com: position (3,), velocity (3,) and desired horizontal velocity (2,).
             rotation: base to world, (3, 3).
             terrain: origin (2,), height and slope (2,) of the plane.

@@ -118,11 +118,12 @@ class MotionTracker:
         plan_time_s = time_s - self._clock.waited_s
         events = self._contacts.update(plan_time_s, self.period_s, kinematics.foot_positions, normal_forces)
         sample = self.plan.at(plan_time_s)
-        self._update_terrain(kinematics)
-        raw = self._raw_alignment(self.config.alignment.torso, sample, kinematics)
+        stance_points = self._contacts.stance_points
+        self._update_terrain(stance_points, kinematics)
+        raw = self._raw_alignment(self.config.alignment.torso, sample, stance_points, kinematics)
         torso = self._alignment.update(raw, sample.com_position[:2], self.period_s)
         return TrackedTick(
-            reference=self._reference(plan_time_s, sample, torso, kinematics),
+            reference=self._reference(plan_time_s, sample, torso, stance_points, kinematics),
             sample=sample,
             plan_time_s=self._began_s + plan_time_s,
             torso_alignment=torso,
@@ -132,27 +133,32 @@ class MotionTracker:
             events=tuple(events),
         )
 
-    def _update_terrain(self, kinematics: Kinematics) -> None:
-        points = np.array([leg.stance_point for leg in self._contacts.legs])
-        newest = fit_plane(points, kinematics.com_position[:2])
+    def _update_terrain(self, stance_points: Array, kinematics: Kinematics) -> None:
+        newest = fit_plane(stance_points, kinematics.com_position[:2])
         share = self.period_s / (self.config.torso.terrain_time_constant_s + self.period_s)
         self._terrain = blend(self._terrain, newest, share)
 
-    def _raw_alignment(self, kind: Alignment, sample: PlanSample, kinematics: Kinematics) -> PlanarPose:
+    def _raw_alignment(
+        self, kind: Alignment, sample: PlanSample, stance_points: Array, kinematics: Kinematics
+    ) -> PlanarPose:
         if kind is Alignment.NONE:
             return identity_alignment()
         if kind is Alignment.BASE:
             heading = yaw_of(kinematics.base_rotation)
             return base_alignment(sample.com_position[:2], sample.yaw, kinematics.com_position[:2], heading)
-        legs = self._contacts.legs
         planned = [
-            points[min(leg.foothold, len(points) - 1), :2]
-            for points, leg in zip(self.plan.footholds, legs, strict=True)
+            points[min(leg.foothold, len(points) - 1)]
+            for points, leg in zip(self.plan.footholds, self._contacts.legs, strict=True)
         ]
-        return feet_alignment(np.array(planned), np.array([leg.stance_point[:2] for leg in legs]))
+        return feet_alignment(np.array(planned)[:, :2], stance_points[:, :2])
 
     def _reference(
-        self, plan_time_s: float, sample: PlanSample, torso: PlanarPose, kinematics: Kinematics
+        self,
+        plan_time_s: float,
+        sample: PlanSample,
+        torso: PlanarPose,
+        stance_points: Array,
+        kinematics: Kinematics,
     ) -> ControlReference:
         com_position = torso.position(sample.com_position[:2])
         rate = self._clock.rate
@@ -160,7 +166,10 @@ class MotionTracker:
         com_change = rate**2 * sample.com_acceleration[:2] + self._clock.rate_change * sample.com_velocity[:2]
         yaw = sample.yaw + torso.yaw
         kind = self.config.alignment.swing
-        footholds = torso if kind is self.config.alignment.torso else self._raw_alignment(kind, sample, kinematics)
+        if kind is self.config.alignment.torso:
+            footholds = torso
+        else:
+            footholds = self._raw_alignment(kind, sample, stance_points, kinematics)
         feet = self._feet.motions(
             self._contacts.legs, plan_time_s, rate, footholds, com_velocity, kinematics, self._terrain
         )

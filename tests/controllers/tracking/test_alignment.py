@@ -113,7 +113,7 @@ def test_smoothed_alignment_lets_a_steady_plan_alone() -> None:
 
 def test_smoothed_alignment_takes_the_short_way_round() -> None:
     """From just below +180 to just above -180 degrees the plan turns by 2, not by 358 degrees."""
-    before, after = (PlanarPose(np.zeros(2), np.zeros(2), math.radians(angle)) for angle in (179.0, -179.0))
+    before, after = (PlanarPose((0.0, 0.0), (0.0, 0.0), math.radians(angle)) for angle in (179.0, -179.0))
     smoothing = SmoothedAlignment(TIME_CONSTANT, before)
     for _ in range(20):
         yaw = smoothing.update(after, TORSO, PERIOD).yaw
