@@ -12,8 +12,8 @@ class LogConfig(StrictModel):
 
     Attributes:
         scene_rate_hz: rate of everything that is only drawn, in simulated [1/s]; scalars have the control rate.
-        chunk_size_kib: amount of log in [KiB] that is compressed and written together; a crash costs at most one
-            chunk, smaller chunks compress less.
+        chunk_size_kib: amount of log in [KiB] that is compressed and written together; a killed trial loses at most
+            one chunk and what came after the last drawing, smaller chunks compress less.
         wall_times: whether computing times are logged (/timing and the plan's report); without them equal records
             and attachments give the same file, byte for byte.
     """

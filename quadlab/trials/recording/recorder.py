@@ -84,6 +84,7 @@ class TrialRecorder:
         blocks = _blocks(level_names, config, estimates)
         self._level_names = frozenset(level_names)
         self._pushed = False
+        self._waiting: list[TickRecord] = []
         self._file = LogFile(path, part_path(path), config.chunk_size_kib * _KIBIBYTE)
         plan_file = ("application/zip", plan_to_bytes(plan if config.wall_times else _without_wall_times(plan)))
         self._attach({**attachments, topics.PLAN_ATTACHMENT: plan_file}, metadata)
@@ -96,7 +97,9 @@ class TrialRecorder:
         return self._scene.is_due(nanoseconds(time_s))
 
     def record(self, tick: TickRecord, bodies: BodyPoses | None) -> None:
-        """Write one tick: its scalars always, what is drawn at the scene rate.
+        """Take in one tick: its scalars always, what is drawn at the scene rate.
+
+        Ticks are written when one is drawn: many in a row, which takes half the time of one after each control tick.
 
         Args:
             tick: one control tick.
@@ -108,25 +111,38 @@ class TrialRecorder:
         unknown = tick.telemetry.level_residuals.keys() - self._level_names
         if unknown:
             raise LogError(f"unknown level '{min(unknown)}'; announced: {', '.join(sorted(self._level_names))}")
-        time_ns = nanoseconds(tick.state.time_s)
-        if self._scene.is_due(time_ns):
-            if bodies is None:
-                raise LogError(f"the tick at {tick.state.time_s:g} s is drawn and needs the poses of the bodies")
-            self._scene.draw(tick, bodies, time_ns)
-        for channel, packer in self._packers:
-            self._file.write(channel, time_ns, packer.pack(tick))
-        for message in tick.telemetry.events:
-            self.event(tick.state.time_s, message)
-        self._record_push(tick)
+        drawn = self.draws(tick.state.time_s)
+        if drawn and bodies is None:
+            raise LogError(f"the tick at {tick.state.time_s:g} s is drawn and needs the poses of the bodies")
+        self._waiting.append(tick)
+        if drawn and bodies is not None:
+            self._write_waiting(bodies)
+
+    def _write_waiting(self, bodies: BodyPoses | None = None) -> None:
+        """Write the ticks since the last drawing; the last of them is drawn if there are ``bodies``."""
+        waiting, self._waiting = self._waiting, []
+        for number, tick in enumerate(waiting, start=1):
+            time_ns = nanoseconds(tick.state.time_s)
+            if bodies is not None and number == len(waiting):
+                self._scene.draw(tick, bodies, time_ns)
+            for channel, packer in self._packers:
+                self._file.write(channel, time_ns, packer.pack(tick))
+            for message in tick.telemetry.events:
+                self._write_event(time_ns, message, EventLevel.INFO)
+            self._record_push(tick)
 
     def event(self, time_s: float, message: str, level: EventLevel = EventLevel.INFO) -> None:
         """Write that something happened at ``time_s`` in [s]."""
-        time_ns = nanoseconds(time_s)
+        self._write_waiting()
+        self._write_event(nanoseconds(time_s), message, level)
+
+    def _write_event(self, time_ns: int, message: str, level: EventLevel) -> None:
         entry = Log(timestamp=stamp(time_ns), level=level.value, message=message, name="trial")
         self._file.write(self._events, time_ns, entry.SerializeToString(deterministic=True))
 
     def close(self) -> None:
         """Complete the log and give it its name."""
+        self._write_waiting()
         self._file.finish()
 
     def __enter__(self) -> Self:
@@ -138,6 +154,7 @@ class TrialRecorder:
         if kind is None:
             self.close()
         else:
+            self._write_waiting()
             self._file.abandon()
 
     def _record_push(self, tick: TickRecord) -> None:
@@ -145,7 +162,8 @@ class TrialRecorder:
             return
         self._pushed = bool(tick.pushes)
         total = float(np.linalg.norm(np.sum([force for _, force in tick.pushes], axis=0)))
-        self.event(tick.state.time_s, f"push of {total:.1f} N starts" if self._pushed else "push ends")
+        message = f"push of {total:.1f} N starts" if self._pushed else "push ends"
+        self._write_event(nanoseconds(tick.state.time_s), message, EventLevel.INFO)
 
     def _packer(self, topic: str, type_name: str, blocks: Sequence[Block]) -> tuple[int, TickPacker]:
         packer = TickPacker(type_name, blocks)
