@@ -7,7 +7,6 @@ import numpy as np
 
 from quadlab.geometry.rotations import Array, wrap_angle
 
-
 Point: TypeAlias = tuple[float, float]
 """x and y in [m]; numbers of Python, since a tick moves a dozen points and arrays of two take longer."""
 
