@@ -40,7 +40,7 @@ def describe_tick(
         base_height_reference=reference.base_height,
         base_rpy_reference=np.array([roll, pitch, yaw]),
         cop_reference=tracked.torso_alignment.position(tracked.sample.cop),
-        terrain_plane=np.array([tracked.terrain.height, *tracked.terrain.slope.tolist()]),
+        terrain_plane=np.array([tracked.terrain.height, *tracked.terrain.slope]),
         foot_positions=kinematics.foot_positions,
         foot_position_references=reference.foot_positions,
         foot_contact_velocities=kinematics.contact_jacobians @ kinematics.generalized_velocity,

@@ -1,7 +1,7 @@
 """The local ground as a plane through the most recent stance feet (Gehring 2017, III-A; Bellicoso 2016, IV)."""
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,34 +9,36 @@ from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry
 
 
-@dataclass(frozen=True)
-class TerrainPlane:
-    """The plane z = height + slope . (xy - origin), in world components.
+class TerrainPlane(NamedTuple):
+    """The plane z = height + slope . (xy - origin), in world components and numbers of Python.
 
     Attributes:
-        origin: where ``height`` holds, (2,) in [m].
+        origin: where ``height`` holds, x and y in [m].
         height: in [m].
-        slope: (dz/dx, dz/dy), (2,).
+        slope: (dz/dx, dz/dy).
     """
 
-    origin: Array
+    origin: tuple[float, float]
     height: float
-    slope: Array
+    slope: tuple[float, float]
 
     def height_at(self, position_xy: Array) -> float:
         """Return the height of the plane in [m] at ``position_xy``, (2,) in [m]."""
-        (slope_x, slope_y), (x, y), (x_0, y_0) = self.slope.tolist(), position_xy.tolist(), self.origin.tolist()
-        height: float = self.height + slope_x * (x - x_0) + slope_y * (y - y_0)
-        return height
+        x, y = position_xy.tolist()
+        return self._height_at(x, y)
 
-    def moved_to(self, origin: Array) -> "TerrainPlane":
-        """Return the same plane written about another origin, (2,) in [m]."""
-        return TerrainPlane(origin, self.height_at(origin), self.slope)
+    def moved_to(self, origin: tuple[float, float]) -> "TerrainPlane":
+        """Return the same plane written about another origin, x and y in [m]."""
+        return TerrainPlane(origin, self._height_at(*origin), self.slope)
+
+    def _height_at(self, x: float, y: float) -> float:
+        (slope_x, slope_y), (x_0, y_0) = self.slope, self.origin
+        return self.height + slope_x * (x - x_0) + slope_y * (y - y_0)
 
     @property
     def normal(self) -> Array:
         """Unit normal, pointing up, (3,)."""
-        slope_x, slope_y = self.slope.tolist()
+        slope_x, slope_y = self.slope
         length = math.sqrt(1.0 + slope_x**2 + slope_y**2)
         return np.array([-slope_x / length, -slope_y / length, 1.0 / length])
 
@@ -46,13 +48,14 @@ def fit_plane(points: Array, origin: Array) -> TerrainPlane:
 
     The points must not lie on one vertical plane; four feet never do.
     """
-    height, slope = _least_squares_plane(points, origin)
-    return TerrainPlane(origin, height, slope)
+    x, y = origin.tolist()
+    height, slope_x, slope_y = _least_squares_plane(points, x, y)
+    return TerrainPlane((x, y), height, (slope_x, slope_y))
 
 
 @compiled_entry
-def _least_squares_plane(points: Array, origin: Array) -> tuple[float, Array]:
-    """Return height at ``origin`` and slope, (2,): about the mean of the points the normal equations are two."""
+def _least_squares_plane(points: Array, origin_x: float, origin_y: float) -> tuple[float, float, float]:
+    """Return height at the origin and slope: about the mean of the points the normal equations are two."""
     count = len(points)
     x, y, z = points[:, 0].sum() / count, points[:, 1].sum() / count, points[:, 2].sum() / count
     xx, xy, yy, xz, yz = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -61,15 +64,13 @@ def _least_squares_plane(points: Array, origin: Array) -> tuple[float, Array]:
         xx, xy, yy = xx + dx * dx, xy + dx * dy, yy + dy * dy
         xz, yz = xz + dx * dz, yz + dy * dz
     determinant = xx * yy - xy * xy
-    slope = np.array([(yy * xz - xy * yz) / determinant, (xx * yz - xy * xz) / determinant])
-    return z + slope[0] * (origin[0] - x) + slope[1] * (origin[1] - y), slope
+    slope_x, slope_y = (yy * xz - xy * yz) / determinant, (xx * yz - xy * xz) / determinant
+    return z + slope_x * (origin_x - x) + slope_y * (origin_y - y), slope_x, slope_y
 
 
 def blend(old: TerrainPlane, new: TerrainPlane, share: float) -> TerrainPlane:
     """Return ``old`` moved towards ``new`` by ``share`` in [0, 1], written about the origin of ``new``."""
-    same_place = old.moved_to(new.origin)
-    return TerrainPlane(
-        new.origin,
-        same_place.height + share * (new.height - same_place.height),
-        same_place.slope + share * (new.slope - same_place.slope),
-    )
+    height = old.moved_to(new.origin).height
+    (old_x, old_y), (new_x, new_y) = old.slope, new.slope
+    slope = (old_x + share * (new_x - old_x), old_y + share * (new_y - old_y))
+    return TerrainPlane(new.origin, height + share * (new.height - height), slope)

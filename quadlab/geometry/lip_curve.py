@@ -1,6 +1,7 @@
 """Exact motion of a linear inverted pendulum whose centre of pressure moves along straight lines."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -37,6 +38,12 @@ class LipCurve:
         lists: list[list[list[float]]] = self.coefficients.tolist()
         return lists
 
+    @cached_property
+    def _compiled_motion(self) -> Callable[..., Array]:
+        from quadlab.geometry.curve_motion import lip_motion  # noqa: PLC0415
+
+        return lip_motion
+
     @property
     def dimension(self) -> int:
         """Number of components d of the curve."""
@@ -66,9 +73,7 @@ class LipCurve:
 
     def motion(self, time_s: float) -> Array:
         """Return value, first and second time derivative at ``time_s``, (3, d)."""
-        from quadlab.geometry.curve_motion import lip_motion  # noqa: PLC0415
-
-        return lip_motion(self.knots, self.coefficients, self.rate, time_s)
+        return self._compiled_motion(self.knots, self.coefficients, self.rate, time_s)
 
     def _spans(self, time_s: float) -> bool:
         return self._knot_list[0] <= time_s <= self._knot_list[-1]

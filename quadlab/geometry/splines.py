@@ -1,5 +1,6 @@
 """Piecewise polynomials and the quintic that joins two states."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -42,6 +43,12 @@ class PiecewisePolynomial:
         """The coefficients as numbers of Python, which are faster than arrays where one time is asked for."""
         return [table.tolist() for table in self._derivatives]
 
+    @cached_property
+    def _compiled_motion(self) -> Callable[..., Array]:
+        from quadlab.geometry.curve_motion import spline_motion  # noqa: PLC0415
+
+        return spline_motion
+
     @property
     def dimension(self) -> int:
         """Number of components d of the curve."""
@@ -60,10 +67,8 @@ class PiecewisePolynomial:
 
     def motion(self, time_s: float) -> Array:
         """Return value, first and second time derivative at ``time_s``, (3, d)."""
-        from quadlab.geometry.curve_motion import spline_motion  # noqa: PLC0415
-
         values, rates, accelerations = self._derivatives[:3]
-        return spline_motion(self.knots, values, rates, accelerations, time_s)
+        return self._compiled_motion(self.knots, values, rates, accelerations, time_s)
 
     def _spans(self, time_s: float) -> bool:
         return self._knot_list[0] <= time_s <= self._knot_list[-1]

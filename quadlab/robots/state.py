@@ -1,5 +1,6 @@
 """The state of a robot, as the simulator knows it or an estimator believes it."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -47,7 +48,12 @@ class RobotState:
             self.angular_velocity_base_in_base,
             self.joint_velocities,
         )
-        return bool(np.isfinite(np.concatenate(parts)).all())
+        return all_finite(np.concatenate(parts))
+
+
+def all_finite(values: Array) -> bool:
+    """Return whether every number in ``values``, (n,), is finite."""
+    return math.isfinite(float(values @ values)) or bool(np.isfinite(values).all())
 
 
 @dataclass(frozen=True)

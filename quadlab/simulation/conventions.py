@@ -23,6 +23,29 @@ _CONTACT_FORCE_OFFSET = 1
 
 
 @dataclass(frozen=True)
+class PhysicsArrays:
+    """The arrays of an ``MjData`` that every step needs, by their names in MuJoCo.
+
+    They are views of the physics' own memory; asking MuJoCo for them anew takes longer than reading them.
+
+    Attributes:
+        qpos, qvel: positions and velocities in MuJoCo's conventions.
+        ctrl: torques of the motors in [N m].
+        sensordata: of all sensors.
+    """
+
+    qpos: Array
+    qvel: Array
+    ctrl: Array
+    sensordata: Array
+
+    @classmethod
+    def of(cls, data: Any) -> "PhysicsArrays":
+        """Return views of ``data``, which must live as long as they do."""
+        return cls(data.qpos, data.qvel, data.ctrl, data.sensordata)
+
+
+@dataclass(frozen=True)
 class MujocoMap:
     """Where a robot's parts are in the arrays of a compiled model.
 
@@ -49,7 +72,7 @@ class MujocoMap:
             foot_forces=first[:, None] + _CONTACT_FORCE_OFFSET + np.arange(3),
         )
 
-    def write_state(self, data: Any, state: RobotState) -> None:
+    def write_state(self, data: PhysicsArrays, state: RobotState) -> None:
         """Set positions and velocities of ``data`` to those of ``state``."""
         data.qpos[:3] = state.position_base_in_world
         data.qpos[3:7] = state.quat_wxyz
@@ -58,7 +81,7 @@ class MujocoMap:
         data.qvel[3:6] = state.angular_velocity_base_in_base
         data.qvel[self.qvel] = state.joint_velocities
 
-    def read_state(self, data: Any, time_s: float) -> RobotState:
+    def read_state(self, data: PhysicsArrays, time_s: float) -> RobotState:
         """Return the state in ``data``; the contact sensor gives the foot's force on the ground, hence the sign."""
         quat = data.qpos[3:7]
         return RobotState(
@@ -72,7 +95,7 @@ class MujocoMap:
             foot_forces_in_world=-data.sensordata[self.foot_forces],
         )
 
-    def joints(self, data: Any) -> tuple[Array, Array]:
+    def joints(self, data: PhysicsArrays) -> tuple[Array, Array]:
         """Return joint angles and velocities, (12,) each in [rad], [rad/s]."""
         return data.qpos[self.qpos], data.qvel[self.qvel]
 

@@ -5,13 +5,12 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quadlab.geometry.rotations import Array
 from quadlab.robots.legs import JOINT_COUNT, LEG_COUNT
 from quadlab.robots.sensing import SensorConfig, SensorReading
 from quadlab.robots.state import JointCommand, RobotState
-from quadlab.simulation.conventions import ACCELEROMETER, GYROSCOPE
+from quadlab.simulation.conventions import ACCELEROMETER, GYROSCOPE, PhysicsArrays
 
 _SENSOR_STREAM = 1
 """Key of the sensors' random numbers; those of the initial state are drawn from the bare seed."""
@@ -41,8 +40,8 @@ class ImuIntegrator:
     One sample of a control period would miss the impacts in between, and their velocity change with them.
     """
 
-    gyroscope: NDArray[np.intp]
-    accelerometer: NDArray[np.intp]
+    gyroscope: slice
+    accelerometer: slice
     _gyro: Array = field(default_factory=lambda: np.zeros(3))
     _force: Array = field(default_factory=lambda: np.zeros(3))
     _steps: int = 0
@@ -51,13 +50,13 @@ class ImuIntegrator:
     def of(cls, model: Any) -> "ImuIntegrator":
         """Look up the sensors of the compiled ``model``."""
         gyro, force = (int(model.sensor(name).adr[0]) for name in (GYROSCOPE, ACCELEROMETER))
-        return cls(gyro + np.arange(3), force + np.arange(3))
+        return cls(slice(gyro, gyro + 3), slice(force, force + 3))
 
     def restart(self) -> None:
         """Begin a new control period."""
         self._gyro, self._force, self._steps = np.zeros(3), np.zeros(3), 0
 
-    def add(self, data: Any) -> None:
+    def add(self, data: PhysicsArrays) -> None:
         """Take in the physics step that ``data`` just made.
 
         The step moves the base with the velocity at its end and the acceleration at its start.
@@ -66,10 +65,10 @@ class ImuIntegrator:
         self._force += data.sensordata[self.accelerometer]
         self._steps += 1
 
-    def sample(self, data: Any) -> ImuSample:
+    def sample(self, data: PhysicsArrays) -> ImuSample:
         """Return the means since ``restart``; the present values if there was no step."""
         if self._steps == 0:
-            return ImuSample(data.sensordata[self.gyroscope], data.sensordata[self.accelerometer])
+            return ImuSample(data.sensordata[self.gyroscope].copy(), data.sensordata[self.accelerometer].copy())
         return ImuSample(self._gyro / self._steps, self._force / self._steps)
 
 

@@ -11,8 +11,8 @@ from quadlab.errors import ConfigurationError, QuadlabError
 from quadlab.geometry.rotations import Array
 from quadlab.robots.legs import JOINT_NAMES
 from quadlab.robots.model import RobotModel
-from quadlab.robots.state import JointCommand, JointDrive, RobotState
-from quadlab.simulation.conventions import MujocoMap
+from quadlab.robots.state import JointCommand, JointDrive, RobotState, all_finite
+from quadlab.simulation.conventions import MujocoMap, PhysicsArrays
 from quadlab.simulation.model_builder import build_spec, link_placements
 from quadlab.simulation.model_error import ModelErrorConfig, apply_model_error
 from quadlab.simulation.push import BASE_BODY, PushConfig, ScheduledPush
@@ -53,6 +53,7 @@ class Simulator:
         apply_model_error(spec, robot.config.base_link, config.model_error)
         self.model: Any = spec.compile()
         self._data: Any = mujoco.MjData(self.model)
+        self._arrays = PhysicsArrays.of(self._data)
         self._map = MujocoMap.of(self.model, robot)
         self._body_names = tuple(self.model.body(body).name for body in range(1, self.model.nbody))
         self._imu = ImuIntegrator.of(self.model)
@@ -81,7 +82,7 @@ class Simulator:
         mujoco.mj_resetData(self.model, self._data)
         self._step = 0
         self._imu.restart()
-        self._map.write_state(self._data, self._initial_state)
+        self._map.write_state(self._arrays, self._initial_state)
         mujoco.mj_forward(self.model, self._data)
         for contact in self._data.contact:
             if contact.dist < -_ALLOWED_PENETRATION:
@@ -97,11 +98,11 @@ class Simulator:
     @property
     def applied_torques(self) -> Array:
         """Torques of the last command after clipping to the limits, (12,) in [N m]."""
-        return np.asarray(self._data.ctrl[self._map.ctrl])
+        return np.asarray(self._arrays.ctrl[self._map.ctrl])
 
     def imu(self) -> ImuSample:
         """Return the mean rates of the inertial unit during the last ``advance``; at the start the present ones."""
-        return self._imu.sample(self._data)
+        return self._imu.sample(self._arrays)
 
     def read(self) -> RobotState:
         """Return the true state; the foot forces are those under the torques and pushes of the last step.
@@ -110,7 +111,7 @@ class Simulator:
         """
         mujoco.mj_forward(self.model, self._data)
         self._looked = True
-        return self._map.read_state(self._data, self.time_s)
+        return self._map.read_state(self._arrays, self.time_s)
 
     def advance(self, command: JointCommand, duration_s: float) -> None:
         """Hold the torques of ``command``, clipped to the limits, for ``duration_s`` in [s]; drives act every step.
@@ -120,18 +121,17 @@ class Simulator:
             QuadlabError: if a torque is not finite.
         """
         steps = check_period(duration_s, self._timestep_s)
-        torques = np.asarray(command.torques)
-        if not np.isfinite(torques).all():
+        torques, limits = np.asarray(command.torques), self._robot.torque_limits
+        if not all_finite(torques):
             names = [name for name, torque in zip(JOINT_NAMES, torques, strict=True) if not math.isfinite(torque)]
             raise QuadlabError(f"torque command is not finite: {', '.join(names)}")
         self._imu.restart()
         for step in range(steps):
             total = torques if command.drive is None else torques + self._drive_torques(command.drive, step)
-            limits = self._robot.torque_limits
-            self._data.ctrl[self._map.ctrl] = np.minimum(np.maximum(total, -limits), limits)
+            self._arrays.ctrl[self._map.ctrl] = np.minimum(np.maximum(total, -limits), limits)
             self._apply_pushes()
             self._integrate()
-            self._imu.add(self._data)
+            self._imu.add(self._arrays)
             self._step += 1
 
     def _integrate(self) -> None:
@@ -143,7 +143,7 @@ class Simulator:
         self._looked = False
 
     def _drive_torques(self, drive: JointDrive, step: int) -> Array:
-        positions, velocities = self._map.joints(self._data)
+        positions, velocities = self._map.joints(self._arrays)
         return drive.torques(step * self._timestep_s, positions, velocities)
 
     def _apply_pushes(self) -> None:

@@ -88,7 +88,7 @@ class FootPlanner:
             tuple(alignment),
             (kinematics.com_position, kinematics.com_velocity, com_velocity_reference),
             kinematics.base_rotation,
-            (terrain.origin, terrain.height, terrain.slope),
+            tuple(terrain),
             self.nominal_feet,
             self._lengths,
             self._feedback,
@@ -113,7 +113,7 @@ def _compile_motions(fingerprint: int) -> Callable[..., Array]:
         alignment: tuple[Point, Point, float],
         com: tuple[Array, Array, Array],
         rotation: Array,
-        terrain: tuple[Array, float, Array],
+        terrain: tuple[Point, float, Point],
         nominal_feet: Array,
         lengths: Lengths,
         feedback: Feedback,
@@ -128,7 +128,7 @@ def _compile_motions(fingerprint: int) -> Callable[..., Array]:
             alignment: point in the plan and in the world in [m], and yaw.
             com: position (3,), velocity (3,) and desired horizontal velocity (2,).
             rotation: base to world, (3, 3).
-            terrain: origin (2,), height and slope (2,) of the plane.
+            terrain: origin, height and slope of the plane.
             nominal_feet: relative to the CoM in the heading frame, (4, 2) in [m].
             lengths, feedback, search_speed: of the planner.
         """

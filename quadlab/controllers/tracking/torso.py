@@ -11,7 +11,7 @@ from quadlab.geometry.rotations import Array, rotation_zyx
 def torso_rotation(yaw: float, terrain: TerrainPlane, slope_following: float) -> Array:
     """Return the desired base rotation, (3, 3): heading ``yaw`` in [rad], roll and pitch a share of the slope."""
     c, s = math.cos(yaw), math.sin(yaw)
-    slope_x, slope_y = terrain.slope.tolist()
+    slope_x, slope_y = terrain.slope
     forward, left = c * slope_x + s * slope_y, -s * slope_x + c * slope_y
     return rotation_zyx(yaw, -math.atan(slope_following * forward), math.atan(slope_following * left))
 

@@ -22,7 +22,7 @@ from quadlab.controllers.tracking.handover import PlanProgress, feet_in_progress
 from quadlab.controllers.tracking.plan_clock import PlanClock
 from quadlab.controllers.tracking.torso import ground_axes, torso_rotation
 from quadlab.estimation.terrain_plane import TerrainPlane, blend, fit_plane
-from quadlab.geometry.rotations import Array, rotation_2d, yaw_of
+from quadlab.geometry.rotations import Array, yaw_of
 from quadlab.planners.plan import MotionPlan, PlanSample
 from quadlab.planners.problem import GRAVITY
 from quadlab.robots.kinematics import Kinematics
@@ -67,7 +67,7 @@ class MotionTracker:
         self.plan = plan
         self._weight = robot.mass * GRAVITY
         self._base_height = float(robot.nominal_state().position_base_in_world[2])
-        self._com_in_base = robot.nominal_com_in_base[:2]
+        self._com_in_base = robot.nominal_com_in_base[:2].tolist()
         self._contacts = start_contacts(config.contact, plan.schedule, self._weight, start.foot_positions)
         self._ramps_s = [ramp_duration(config.force_ramp, plan.schedule, leg) for leg in range(LEG_COUNT)]
         self._alignment = SmoothedAlignment(config.alignment.time_constant_s, identity_alignment())
@@ -177,7 +177,7 @@ class MotionTracker:
             com_position=com_position,
             com_velocity=com_velocity,
             com_acceleration=torso.vector(com_change),
-            base_position=com_position - rotation_2d(yaw) @ self._com_in_base,
+            base_position=com_position - self._com_in_base_at(yaw),
             base_height=self._terrain.height_at(kinematics.base_position[:2]) + self._base_height,
             base_rotation=torso_rotation(yaw, self._terrain, self.config.torso.slope_following),
             base_angular_velocity=np.array([0.0, 0.0, rate * sample.yaw_rate]),
@@ -192,6 +192,12 @@ class MotionTracker:
             standing_height=self._base_height,
             ground_axes=ground_axes(yaw, self._terrain),
         )
+
+    def _com_in_base_at(self, yaw: float) -> Array:
+        """Return the CoM relative to the base origin in the nominal stance at heading ``yaw``, (2,) in [m]."""
+        cosine, sine = math.cos(yaw), math.sin(yaw)
+        x, y = self._com_in_base
+        return np.array([cosine * x - sine * y, sine * x + cosine * y])
 
     def _force_limit(self, leg: int, plan_time_s: float) -> float:
         state = self._contacts.legs[leg]

@@ -26,7 +26,7 @@ def friction_cone(floor_share: float = FLOOR_SHARE) -> FrictionCone:
 
 
 def reference_on(robot: RobotModel, slope: tuple[float, float], stance: list[int]) -> ControlReference:
-    axes = ground_axes(0.7, TerrainPlane(np.zeros(2), 0.0, np.array(slope)))
+    axes = ground_axes(0.7, TerrainPlane((0.0, 0.0), 0.0, slope))
     limits = np.array([0.5, 1.0, 1.5, 2.0]) * robot.mass * 9.81
     exact = reference_at(robot, robot.kinematics(robot.nominal_state()), stance)
     return replace(exact, ground_axes=axes, normal_force_limits=limits)

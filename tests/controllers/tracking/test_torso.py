@@ -16,7 +16,7 @@ yaws = pytest.mark.parametrize("yaw", YAWS)
 def sloped(forward: float, left: float, yaw: float) -> TerrainPlane:
     """Ground that rises by ``forward`` along the heading and by ``left`` to its left."""
     c, s = math.cos(yaw), math.sin(yaw)
-    return TerrainPlane(np.zeros(2), 0.0, np.array([c * forward - s * left, s * forward + c * left]))
+    return TerrainPlane((0.0, 0.0), 0.0, (c * forward - s * left, s * forward + c * left))
 
 
 def steepness(direction: Array) -> float:
@@ -55,7 +55,7 @@ def test_torso_keeps_its_heading_and_a_share_of_the_slope(yaw: float, share: flo
 @yaws
 @pytest.mark.parametrize("slope", [(0.0, 0.0), (0.4, 0.0), (-0.2, 0.3)])
 def test_ground_axes_are_a_right_handed_frame_of_the_plane(yaw: float, slope: tuple[float, float]) -> None:
-    terrain = TerrainPlane(np.zeros(2), 0.0, np.array(slope))
+    terrain = TerrainPlane((0.0, 0.0), 0.0, slope)
     axes = ground_axes(yaw, terrain)
     np.testing.assert_allclose(axes.T @ axes, np.eye(3), atol=1e-12)
     assert np.linalg.det(axes) == pytest.approx(1.0)
