@@ -1,8 +1,8 @@
 """What a controller says about one tick, for log, plots and statistics."""
 
 import math
-from dataclasses import dataclass, field
 from enum import IntEnum
+from typing import NamedTuple
 
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
@@ -17,8 +17,7 @@ class LegMode(IntEnum):
     """Past its planned touch-down, or its contact was lost: it reaches down until it touches."""
 
 
-@dataclass(frozen=True)
-class ControlTelemetry:
+class ControlTelemetry(NamedTuple):
     """One tick of a controller; positions in world components and in [m] unless said.
 
     Attributes:
@@ -69,7 +68,7 @@ class ControlTelemetry:
     reference_us: float
     solve_us: float
     certificate: float = math.nan
-    events: tuple[str, ...] = field(default=())
+    events: tuple[str, ...] = ()
 
     @property
     def tick_us(self) -> float:

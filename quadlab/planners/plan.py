@@ -1,14 +1,14 @@
 """A motion plan: curves and footholds in the plan frame that can be evaluated at any time."""
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from quadlab.gaits.schedule import BoolArray, ContactSchedule
 from quadlab.geometry.curve import Curve
 from quadlab.geometry.rotations import Array
 
 
-@dataclass(frozen=True)
-class PlanSample:
+class PlanSample(NamedTuple):
     """A plan at one time; everything in the plan frame P.
 
     Attributes:
@@ -135,6 +135,6 @@ class MotionPlan:
             com_acceleration=acceleration,
             yaw=float(heading[0, 0]),
             yaw_rate=float(heading[1, 0]),
-            cop=self.cop(time_s),
+            cop=self.cop.motion(time_s)[0],
             contacts=self.schedule.contacts_at(time_s),
         )

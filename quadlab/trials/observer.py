@@ -1,6 +1,5 @@
 """What the controller gets to know of the simulated robot: sensors, and the estimator behind them."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -50,8 +49,7 @@ def as_it_happened(
     """
     drift = estimate.state.position_base_in_world - true_state.position_base_in_world
     plane = telemetry.terrain_plane - np.array([drift[2], 0.0, 0.0])
-    return replace(
-        telemetry,
+    return telemetry._replace(
         com_position=true_points.com_position,
         com_velocity=true_points.com_velocity,
         foot_positions=true_points.foot_positions,

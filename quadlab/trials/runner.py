@@ -2,7 +2,7 @@
 
 import math
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -126,7 +126,7 @@ class ClosedLoop:
         replanned = self._replanner.update(self._controller, estimate.state)
         command, telemetry = self._controller.tick(estimate.state)
         if replanned:
-            telemetry = replace(telemetry, events=(replanned, *telemetry.events))
+            telemetry = telemetry._replace(events=(replanned, *telemetry.events))
         poses = BodyPoses(*self._simulator.body_poses()) if recorder.draws(state.time_s) else None
         pushes = tuple(self._simulator.active_pushes())
         self._simulator.advance(command, self._controller.period_s)

@@ -60,14 +60,13 @@ def straight_plan(schedule: ContactSchedule, step: float = 0.1) -> MotionPlan:
 def scheduled_tick(index: int, schedule: ContactSchedule, period_s: float, modes: tuple[LegMode, ...]) -> TickRecord:
     """The tick at ``index * period_s`` in which the plan's contacts hold and the legs are in ``modes``."""
     tick, time_s = tick_record(index), index * period_s
-    telemetry = replace(
-        tick.telemetry,
+    telemetry = tick.telemetry._replace(
         plan_time_s=time_s,
         planned_contacts=schedule.contacts_at(time_s),
         leg_modes=modes,
         events=("LF early touch-down at 0.80 of the swing", "push of 3 N starts") if index == 7 else (),
     )
-    return replace(tick, state=replace(tick.state, time_s=time_s), telemetry=telemetry)
+    return tick._replace(state=replace(tick.state, time_s=time_s), telemetry=telemetry)
 
 
 def write_trial(

@@ -1,7 +1,8 @@
 """From plan and measured state to the reference of one tick."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,8 +31,7 @@ from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.model import RobotModel
 
 
-@dataclass(frozen=True)
-class TrackedTick:
+class TrackedTick(NamedTuple):
     """The outcome of one tick of the tracker.
 
     Attributes:

@@ -1,6 +1,7 @@
 """What is recorded of one tick of a trial."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from quadlab.controllers.telemetry import ControlTelemetry
 from quadlab.estimation.estimate import Estimate
@@ -8,8 +9,7 @@ from quadlab.geometry.rotations import Array
 from quadlab.robots.state import JointCommand, RobotState
 
 
-@dataclass(frozen=True)
-class TickRecord:
+class TickRecord(NamedTuple):
     """One control tick.
 
     Attributes:

@@ -37,7 +37,7 @@ def test_loaded_feet_and_pushes_have_arrows_in_proportion_to_their_force() -> No
 def test_support_polygon_goes_round_the_standing_feet_only() -> None:
     tick = tick_record(0)
     modes = (LegMode.STANCE, LegMode.STANCE, LegMode.SEARCH, LegMode.STANCE)
-    scene = reference(replace(tick, telemetry=replace(tick.telemetry, leg_modes=modes)), 0).entities[0]
+    scene = reference(tick._replace(telemetry=tick.telemetry._replace(leg_modes=modes)), 0).entities[0]
     corners = [(point.x, point.y, point.z) for point in scene.lines[0].points]
     np.testing.assert_array_equal(corners, tick.telemetry.foot_positions[[0, 1, 3]])
 
