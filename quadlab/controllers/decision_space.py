@@ -1,6 +1,6 @@
 """Decision variables of a tick: how accelerations, torques and contact forces follow from them."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,8 +17,7 @@ BLOCKS = {Variable.ACCELERATION: _ACCELERATIONS, Variable.TORQUE: _TORQUES, Vari
 """Where each variable stands in y = [u_dot (18), tau (12), lambda (3 n)], n standing legs."""
 
 
-@dataclass(frozen=True)
-class DecisionSpace:
+class DecisionSpace(NamedTuple):
     """The affine map y = linear @ x + offset from the decision variables x to y = [u_dot, tau, lambda].
 
     Attributes:
