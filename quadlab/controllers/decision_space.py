@@ -13,8 +13,12 @@ from quadlab.robots.legs import JOINT_COUNT
 _ACCELERATIONS = slice(0, VELOCITY_SIZE)
 _TORQUES = slice(VELOCITY_SIZE, VELOCITY_SIZE + JOINT_COUNT)
 _FORCES = slice(VELOCITY_SIZE + JOINT_COUNT, None)
-BLOCKS = {Variable.ACCELERATION: _ACCELERATIONS, Variable.TORQUE: _TORQUES, Variable.FORCE: _FORCES}
-"""Where each variable stands in y = [u_dot (18), tau (12), lambda (3 n)], n standing legs."""
+FIRST_COLUMNS = {
+    Variable.ACCELERATION: 0,
+    Variable.TORQUE: VELOCITY_SIZE,
+    Variable.FORCE: VELOCITY_SIZE + JOINT_COUNT,
+}
+"""Where each variable begins in y = [u_dot (18), tau (12), lambda (3 n)], n standing legs."""
 
 
 class DecisionSpace(NamedTuple):

@@ -2,6 +2,8 @@
 
 from typing import Literal
 
+import numpy as np
+
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
@@ -23,12 +25,14 @@ class ComPositionTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
-        target = tracking_target(
+        target = np.empty(2)
+        tracking_target(
             self.config.proportional_per_s2,
             self.config.derivative_per_s,
             reference.com_acceleration,
-            (reference.com_velocity, kinematics.com_velocity[:2]),
-            (reference.com_position, kinematics.com_position[:2]),
-            kinematics.com_bias[:2],
+            (reference.com_velocity, kinematics.com_velocity),
+            (reference.com_position, kinematics.com_position),
+            kinematics.com_bias,
+            target,
         )
         return equation(Variable.ACCELERATION, kinematics.com_jacobian[:2], target)

@@ -1,7 +1,5 @@
 """Gains of a tracked motion."""
 
-import numpy as np
-
 from quadlab.configuration import NonNegative, StrictModel
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry
@@ -31,19 +29,21 @@ def tracking_target(
     velocities: tuple[Array, Array],
     positions: tuple[Array, Array],
     bias: Array,
-) -> Array:
-    """Return what J u_dot shall be, (m,): the commanded acceleration less the ``bias`` J_dot u.
+    target: Array,
+) -> None:
+    """Write what J u_dot shall be to ``target``, (m,): the commanded acceleration less the ``bias`` J_dot u.
+
+    Of arrays that are longer the first m numbers count.
 
     Args:
         proportional_per_s2, derivative_per_s: gains, see ``TrackingGains``.
         feed_forward: x_ddot_ref, (m,).
         velocities, positions: reference and measured, (m,) each.
         bias: (m,).
+        target: to write to.
     """
-    target = np.empty(len(bias))
-    for i in range(len(bias)):
+    for i in range(len(target)):
         velocity_error = velocities[0][i] - velocities[1][i]
         position_error = positions[0][i] - positions[1][i]
         commanded = feed_forward[i] + derivative_per_s * velocity_error + proportional_per_s2 * position_error
         target[i] = commanded - bias[i]
-    return target
