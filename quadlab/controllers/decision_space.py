@@ -41,7 +41,8 @@ class DecisionSpace(NamedTuple):
 
     def values(self, x: Array) -> tuple[Array, Array, Array]:
         """Return u_dot (18,), tau (12,) in [N m] and lambda (n, 3) in [N] for the decision variables ``x`` (d,)."""
-        y = self.linear @ x + self.offset
+        y = np.dot(self.linear, x)
+        y += self.offset
         return y[_ACCELERATIONS], y[_TORQUES], y[_FORCES].reshape(-1, 3)
 
     def accelerations(self, x: Array) -> Array:

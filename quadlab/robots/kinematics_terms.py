@@ -50,7 +50,7 @@ def add_product(matrix: Array, vector: Array, result: Array) -> None:
 
 
 @compiled_entry
-def pinocchio_coordinates(
+def write_coordinates(
     position: Array,
     quat_wxyz: Array,
     joints: Array,
@@ -60,9 +60,11 @@ def pinocchio_coordinates(
     rotation: Array,
     position_indices: IndexArray,
     velocity_indices: IndexArray,
-) -> tuple[Array, Array]:
-    """Return q (19,) and v (18,) in Pinocchio's order; arguments as in ``RobotState`` and ``PinocchioModel``."""
-    q, v = np.empty(_SIZE + 1), np.zeros(_SIZE)
+    q: Array,
+    v: Array,
+) -> None:
+    """Write q (19,) and v (18,) in Pinocchio's order; arguments as in ``RobotState`` and ``PinocchioModel``."""
+    v[:] = 0.0
     q[:3] = position
     q[3:6] = quat_wxyz[1:]
     q[6] = quat_wxyz[0]
@@ -71,7 +73,6 @@ def pinocchio_coordinates(
     for joint in range(len(joints)):
         q[position_indices[joint]] = joints[joint]
         v[velocity_indices[joint]] = joint_velocities[joint]
-    return q, v
 
 
 @compiled
@@ -237,6 +238,11 @@ def write_terms(
     _write_com(com, dynamics[2], rotation, gravity, mass, order, of_com)
     _write_base(rotation, v, position, hips_in_base, of_base)
     _write_feet(jacobian, v, feet, joints, radius, of_feet)
+
+
+def empty_coordinates() -> tuple[Array, Array]:
+    """Return arrays for ``write_coordinates``; their numbers are arbitrary."""
+    return np.empty(_SIZE + 1), np.empty(_SIZE)
 
 
 def empty_terms() -> tuple[DynamicsTerms, ComTerms, BaseTerms, FootTerms]:
