@@ -65,9 +65,19 @@ def in_decision_variables(
     """Return matrix, lower and upper of all ``parts``, in their order and from row ``starts`` on, in x."""
     count = starts[-1]
     matrix, lower, upper = np.empty((count, space.size)), np.empty(count), np.empty(count)
-    for part, first in zip(parts, starts[:-1], strict=True):
-        variable, *rows = part
-        _substitute(*rows, FIRST_COLUMNS[variable], space.linear, space.offset, first, matrix, lower, upper)
+    for part, first in zip(parts, starts, strict=False):
+        _substitute(
+            part.matrix,
+            part.lower,
+            part.upper,
+            FIRST_COLUMNS[part.variable],
+            space.linear,
+            space.offset,
+            first,
+            matrix,
+            lower,
+            upper,
+        )
     return matrix, lower, upper
 
 

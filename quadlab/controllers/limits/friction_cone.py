@@ -6,11 +6,12 @@ import numpy as np
 
 from quadlab.configuration import NonNegative, Positive, StrictModel, register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.task import TaskRows, Variable
+from quadlab.controllers.tasks.task import TaskRows, Variable, empty_rows
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry
 from quadlab.robots.kinematics import Kinematics
+from quadlab.robots.legs import LEG_COUNT
 
 
 @register("task", "friction_cone")
@@ -37,17 +38,22 @@ class FrictionCone:
         mu = config.friction
         sides = [[1.0, 0.0, -mu], [-1.0, 0.0, -mu], [0.0, 1.0, -mu], [0.0, -1.0, -mu]]
         self._pyramid = np.array([*sides, [0.0, 0.0, 1.0]])
+        size = len(self._pyramid)
+        self._rows = [empty_rows(Variable.FORCE, size * legs, 3 * legs) for legs in range(LEG_COUNT + 1)]
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return five rows in forces for each standing leg."""
         floor = self.config.minimum_normal_force_share * reference.weight
-        standing = len(reference.stance_legs)
-        size = len(self._pyramid) * standing
-        rows = np.empty((size, 3 * standing)), np.empty(size), np.empty(size)
+        rows = self._rows[len(reference.stance_legs)]
         _write_pyramids(
-            self._pyramid, floor, reference.ground_axes, reference.stance, reference.normal_force_limits, rows
+            self._pyramid,
+            floor,
+            reference.ground_axes,
+            reference.stance,
+            reference.normal_force_limits,
+            (rows.matrix, rows.lower, rows.upper),
         )
-        return TaskRows(Variable.FORCE, *rows)
+        return rows
 
 
 @compiled_entry

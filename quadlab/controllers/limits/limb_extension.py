@@ -9,7 +9,7 @@ import numpy as np
 from quadlab.configuration import register
 from quadlab.controllers.limits.second_order import HeightRangeConfig, acceleration_bounds
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.task import TaskRows, Variable
+from quadlab.controllers.tasks.task import TaskRows, Variable, empty_rows
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled, compiled_entry, source_fingerprint
 from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
@@ -27,10 +27,10 @@ class LimbExtensionLimit:
 
     def __init__(self, config: Config) -> None:
         self.config = config
+        self._rows = empty_rows(Variable.ACCELERATION, LEG_COUNT, VELOCITY_SIZE)
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return one row in accelerations for each leg."""
-        rows = np.empty((LEG_COUNT, VELOCITY_SIZE)), np.empty(LEG_COUNT), np.empty(LEG_COUNT)
         _write_rows(
             kinematics.base_jacobian,
             kinematics.base_bias,
@@ -40,9 +40,9 @@ class LimbExtensionLimit:
             (kinematics.hip_positions, kinematics.foot_positions),
             self.config.bounds(reference.standing_height),
             self.config.look_ahead_s,
-            rows,
+            (self._rows.matrix, self._rows.lower, self._rows.upper),
         )
-        return TaskRows(Variable.ACCELERATION, *rows)
+        return self._rows
 
 
 @compiled

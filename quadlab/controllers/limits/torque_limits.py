@@ -29,8 +29,10 @@ class TorqueLimits:
 
     def __init__(self, config: Config) -> None:
         self.config = config
+        self._rows = TaskRows(Variable.TORQUE, _IDENTITY, np.empty(JOINT_COUNT), np.empty(JOINT_COUNT))
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return twelve rows in torques."""
-        limits = self.config.share * reference.torque_limits
-        return TaskRows(Variable.TORQUE, _IDENTITY, -limits, limits)
+        np.multiply(self.config.share, reference.torque_limits, out=self._rows.upper)
+        np.negative(self._rows.upper, out=self._rows.lower)
+        return self._rows

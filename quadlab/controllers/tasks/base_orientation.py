@@ -11,16 +11,17 @@ from quadlab import geometry
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
-from quadlab.controllers.tasks.task import TaskRows, Variable, equation
+from quadlab.controllers.tasks.task import TaskRows, Variable, empty_equation, equation
 from quadlab.geometry.rotation_error import error_below_half_turn, rotation_error
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry, source_fingerprint
 from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 
 
-def _angular_target(gains: TrackingGains, kinematics: Kinematics, reference: ControlReference) -> Array:
-    """Return what J_omega u_dot shall be in world axes, (3,) in [rad/s^2]; the error is R_ref boxminus R."""
-    target = np.empty(3)
+def _write_angular_target(
+    gains: TrackingGains, kinematics: Kinematics, reference: ControlReference, target: Array
+) -> None:
+    """Write what J_omega u_dot shall be in world axes, (3,) in [rad/s^2]; the error is R_ref boxminus R."""
     _target_below_half_turn(
         gains.proportional_per_s2,
         gains.derivative_per_s,
@@ -29,11 +30,10 @@ def _angular_target(gains: TrackingGains, kinematics: Kinematics, reference: Con
         kinematics.base_bias,
         target,
     )
-    if not math.isnan(target[0]):
-        return target
-    error = rotation_error(reference.base_rotation, kinematics.base_rotation)
-    velocity_error = reference.base_angular_velocity - kinematics.base_angular_velocity
-    return np.asarray(gains.acceleration(0.0, velocity_error, error) - kinematics.base_bias[3:])
+    if math.isnan(target[0]):
+        error = rotation_error(reference.base_rotation, kinematics.base_rotation)
+        velocity_error = reference.base_angular_velocity - kinematics.base_angular_velocity
+        target[:] = gains.acceleration(0.0, velocity_error, error) - kinematics.base_bias[3:]
 
 
 def _compile_target(fingerprint: int) -> Callable[..., None]:
@@ -46,7 +46,7 @@ def _compile_target(fingerprint: int) -> Callable[..., None]:
         base_bias: Array,
         target: Array,
     ) -> None:
-        """Write the target of ``_angular_target``; NaN near half a turn. Pairs are reference and measured."""
+        """Write the target of ``_write_angular_target``; NaN near half a turn. Pairs are reference and measured."""
         _ = fingerprint  # a closure variable, so that the cached machine code follows a change of what is called
         error = error_below_half_turn(rotations[0], rotations[1])
         zero = np.zeros(3)
@@ -71,11 +71,13 @@ class BaseYawTask:
 
     def __init__(self, config: Config) -> None:
         self.config = config
+        self._target = np.empty(3)
+        self._vertical_target = self._target[2:]
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return one row in accelerations."""
-        target = _angular_target(self.config, kinematics, reference)
-        return equation(Variable.ACCELERATION, kinematics.base_jacobian[5:], target[2:])
+        _write_angular_target(self.config, kinematics, reference, self._target)
+        return equation(Variable.ACCELERATION, kinematics.base_jacobian[5:], self._vertical_target)
 
 
 @register("task", "base_roll_pitch")
@@ -89,13 +91,16 @@ class BaseRollPitchTask:
 
     def __init__(self, config: Config) -> None:
         self.config = config
+        self._target = np.empty(3)
+        self._rows = empty_equation(Variable.ACCELERATION, 2, VELOCITY_SIZE)
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
-        target = _angular_target(self.config, kinematics, reference)
-        matrix, turned = np.empty((2, VELOCITY_SIZE)), np.empty(2)
-        _turn_into_heading_frame(kinematics.base_rotation, kinematics.base_jacobian, target, matrix, turned)
-        return equation(Variable.ACCELERATION, matrix, turned)
+        _write_angular_target(self.config, kinematics, reference, self._target)
+        _turn_into_heading_frame(
+            kinematics.base_rotation, kinematics.base_jacobian, self._target, self._rows.matrix, self._rows.upper
+        )
+        return self._rows
 
 
 @compiled_entry

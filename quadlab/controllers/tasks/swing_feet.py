@@ -2,12 +2,10 @@
 
 from typing import Literal
 
-import numpy as np
-
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.gains import TrackingGains
-from quadlab.controllers.tasks.task import TaskRows, Variable, equation
+from quadlab.controllers.tasks.task import TaskRows, Variable, empty_equation
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry
@@ -26,11 +24,11 @@ class SwingFeetTask:
 
     def __init__(self, config: Config) -> None:
         self.config = config
+        self._rows = [empty_equation(Variable.ACCELERATION, 3 * legs, VELOCITY_SIZE) for legs in range(LEG_COUNT + 1)]
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return three rows in accelerations for each leg in the air."""
-        swinging = LEG_COUNT - len(reference.stance_legs)
-        matrix, target = np.empty((3 * swinging, VELOCITY_SIZE)), np.empty(3 * swinging)
+        rows = self._rows[LEG_COUNT - len(reference.stance_legs)]
         _write_swing_rows(
             self.config.proportional_per_s2,
             self.config.derivative_per_s,
@@ -38,9 +36,9 @@ class SwingFeetTask:
             (reference.foot_accelerations, reference.foot_velocities, reference.foot_positions),
             (kinematics.foot_bias, kinematics.foot_velocities, kinematics.foot_positions),
             kinematics.foot_jacobians,
-            (matrix, target),
+            (rows.matrix, rows.upper),
         )
-        return equation(Variable.ACCELERATION, matrix, target)
+        return rows
 
 
 @compiled_entry
