@@ -69,7 +69,7 @@ def solve_hierarchy(
         raise HierarchyError(f"start: expected ({dimension},) finite numbers, has shape {point.shape}: {point}")
     if iteration_limit < 1:
         raise HierarchyError(f"iteration_limit: expected at least 1, is {iteration_limit}")
-    result = solve_stacked(stacked.matrix, stacked.lower, stacked.upper, stacked.breaks, point, iteration_limit)
+    result = solve_stacked(*stacked, point, iteration_limit)
     names = [level.name for level in levels]
     slack_of = dict(zip(names, np.split(result.slacks, stacked.breaks[1:-1]), strict=True))
     return HierarchySolution(
