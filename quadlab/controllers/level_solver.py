@@ -63,7 +63,7 @@ class LevelSolution(NamedTuple):
     residuals: dict[str, float]
     iterations: int
     solved: bool
-    certificate: float
+    certificate: float = math.nan
 
 
 class LevelSolver:
@@ -75,20 +75,20 @@ class LevelSolver:
 
     def solve(self, levels: StackedLevels, start: Array) -> LevelSolution:
         """Return the solution of ``levels`` closest to ``start``, (n,)."""
-        x, residuals, iterations, solved = (
-            self._lexicographic(levels, start)
-            if self.config.method == "lexicographic"
-            else self._cascade(levels, start)
-        )
-        remainder = float(certificate(unstack(levels, self.names), x).max()) if self.config.certify else math.nan
-        return LevelSolution(x, residuals, iterations, solved, remainder)
+        lexicographic = self.config.method == "lexicographic"
+        solution = self._lexicographic(levels, start) if lexicographic else self._cascade(levels, start)
+        if not self.config.certify:
+            return solution
+        remainders = certificate(unstack(levels, self.names), solution.x)
+        return solution._replace(certificate=float(remainders.max()))
 
-    def _lexicographic(self, levels: StackedLevels, start: Array) -> tuple[Array, dict[str, float], int, bool]:
+    def _lexicographic(self, levels: StackedLevels, start: Array) -> LevelSolution:
         result = solve_stacked(*levels, start, _ITERATION_LIMIT)
         norms = result.norms.tolist()
         solved = result.status == 0 and not math.isnan(sum(norms))
-        return result.x, dict(zip(self.names, norms, strict=True)), result.iterations, solved
+        return LevelSolution(result.x, dict(zip(self.names, norms, strict=True)), result.iterations, solved)
 
-    def _cascade(self, levels: StackedLevels, start: Array) -> tuple[Array, dict[str, float], int, bool]:
+    def _cascade(self, levels: StackedLevels, start: Array) -> LevelSolution:
         solution = solve_cascade(unstack(levels, self.names), start, qp_solver=self.config.qp_solver)
-        return solution.x, solution.residual_norms, solution.programs, solution.status is CascadeStatus.SOLVED
+        solved = solution.status is CascadeStatus.SOLVED
+        return LevelSolution(solution.x, solution.residual_norms, solution.programs, solved)

@@ -29,6 +29,8 @@ class SwingFeetTask:
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return three rows in accelerations for each leg in the air."""
         rows = self._rows[LEG_COUNT - len(reference.stance_legs)]
+        if not len(rows.upper):
+            return rows
         _write_swing_rows(
             self.config.proportional_per_s2,
             self.config.derivative_per_s,

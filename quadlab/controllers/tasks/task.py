@@ -39,12 +39,12 @@ class TaskRows(NamedTuple):
 
 
 def empty_rows(variable: Variable, count: int, size: int) -> TaskRows:
-    """Return ``count`` inequalities in ``size`` unknowns with arbitrary numbers, for a task to write to in each tick."""
+    """Return ``count`` inequalities in ``size`` unknowns with arbitrary numbers, to be written to in each tick."""
     return TaskRows(variable, np.empty((count, size)), np.empty(count), np.empty(count))
 
 
 def empty_equation(variable: Variable, count: int, size: int) -> TaskRows:
-    """Return ``count`` equations in ``size`` unknowns with arbitrary numbers, for a task to write to in each tick."""
+    """Return ``count`` equations in ``size`` unknowns with arbitrary numbers, to be written to in each tick."""
     return equation(variable, np.empty((count, size)), np.empty(count))
 
 
