@@ -28,8 +28,8 @@ class StackedResult(NamedTuple):
         x: (n,) the solution, finite in any case.
         slacks: (m,) by how much a row lies above (positive) or below (negative) its interval at x.
         active: (m,) int8: 2 equality, +1 at or above the upper bound, -1 at or below the lower one, 0 strictly between.
-        norms: (levels,) of the slacks of each level; NaN where a row has a number that is none: the solver takes
-            comparisons with NaN for rows that are satisfied, so that its status does not tell.
+        norms: (levels,) of the slacks of each level; NaN where a row has a number that is none or cannot be
+            squared: the solver takes comparisons with NaN for satisfied rows, so that its status does not tell.
         iterations: number of iterations made.
         status: 0 solved; 1 iteration limit: higher levels are optimal, the one under way has not got worse than at its
             beginning, lower ones were not looked at; 2 numerical breakdown (overflow): as before, or x is ``start``.
@@ -90,14 +90,15 @@ def assess_rows(rows: Rows, row_norms: Array, answer: Answer) -> None:
 
 
 @inlined
-def assess_levels(rows: Rows, slacks: Array, norms: Array) -> None:
-    """Write the norm of the slacks of each level; NaN where a row has a number that is none."""
-    matrix, lower, upper, breaks = rows
+def assess_levels(rows: Rows, row_norms: Array, answer: Answer) -> None:
+    """Write the norm of the slacks of each level; NaN where a row has a number that is none or cannot be squared."""
+    _, lower, upper, breaks = rows
+    _, slacks, _, norms = answer
     for level in range(len(norms)):
         square = 0.0
         for row in range(breaks[level], breaks[level + 1]):
             square += slacks[row] * slacks[row]
-            if np.isnan(lower[row]) or np.isnan(upper[row]) or not np.isfinite(matrix[row].sum()):
+            if np.isnan(lower[row]) or np.isnan(upper[row]) or not np.isfinite(row_norms[row]):
                 square = np.nan
         norms[level] = np.sqrt(square)
 
@@ -107,7 +108,7 @@ def _compile_solver(fingerprint: int) -> Callable[[Rows, Array, int, Answer], tu
     def solve(rows: Rows, start: Array, iteration_limit: int, answer: Answer) -> tuple[int, int]:
         _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
         matrix, lower, upper, breaks = rows
-        x, slacks, _, norms = answer
+        x = answer[0]
         count, dimension = matrix.shape
         levels = len(breaks) - 1
         workspace = allocate(matrix, lower, upper, start)
@@ -131,7 +132,7 @@ def _compile_solver(fingerprint: int) -> Callable[[Rows, Array, int, Answer], tu
         if not np.isfinite(x).all():
             x[:], status = start, BREAKDOWN
         assess_rows(rows, workspace.norms, answer)
-        assess_levels(rows, slacks, norms)
+        assess_levels(rows, workspace.norms, answer)
         return iterations, status
 
     return solve
