@@ -1,6 +1,6 @@
 """Decision variables of a tick: how accelerations, torques and contact forces follow from them."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,12 +13,15 @@ from quadlab.robots.legs import JOINT_COUNT
 _ACCELERATIONS = slice(0, VELOCITY_SIZE)
 _TORQUES = slice(VELOCITY_SIZE, VELOCITY_SIZE + JOINT_COUNT)
 _FORCES = slice(VELOCITY_SIZE + JOINT_COUNT, None)
-BLOCKS = {Variable.ACCELERATION: _ACCELERATIONS, Variable.TORQUE: _TORQUES, Variable.FORCE: _FORCES}
-"""Where each variable stands in y = [u_dot (18), tau (12), lambda (3 n)], n standing legs."""
+FIRST_COLUMNS = {
+    Variable.ACCELERATION: 0,
+    Variable.TORQUE: VELOCITY_SIZE,
+    Variable.FORCE: VELOCITY_SIZE + JOINT_COUNT,
+}
+"""Where each variable begins in y = [u_dot (18), tau (12), lambda (3 n)], n standing legs."""
 
 
-@dataclass(frozen=True)
-class DecisionSpace:
+class DecisionSpace(NamedTuple):
     """The affine map y = linear @ x + offset from the decision variables x to y = [u_dot, tau, lambda].
 
     Attributes:
@@ -38,7 +41,8 @@ class DecisionSpace:
 
     def values(self, x: Array) -> tuple[Array, Array, Array]:
         """Return u_dot (18,), tau (12,) in [N m] and lambda (n, 3) in [N] for the decision variables ``x`` (d,)."""
-        y = self.linear @ x + self.offset
+        y = np.dot(self.linear, x)
+        y += self.offset
         return y[_ACCELERATIONS], y[_TORQUES], y[_FORCES].reshape(-1, 3)
 
     def accelerations(self, x: Array) -> Array:

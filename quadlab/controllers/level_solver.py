@@ -1,10 +1,9 @@
 """The solver behind controllers with levels: which method, and whether its answer is proved in every tick."""
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
-import numpy as np
 import qpsolvers
 from pydantic import Field, field_validator
 
@@ -12,10 +11,8 @@ from quadlab.controllers.controller_config import TrackingControllerConfig
 from quadlab.controllers.formulation import FormulationName
 from quadlab.controllers.hierarchy import StackedLevels, certificate, solve_stacked, unstack
 from quadlab.controllers.hierarchy.cascade import CascadeStatus, QpSolver, solve_cascade
-from quadlab.controllers.hierarchy.level import IndexArray
 from quadlab.controllers.task_levels import LevelConfig, check_level_names
 from quadlab.geometry.rotations import Array
-from quadlab.jit import compiled_entry
 
 _ITERATION_LIMIT = 500
 
@@ -51,8 +48,7 @@ class LevelledControllerConfig(TrackingControllerConfig):
         return qp_solver
 
 
-@dataclass(frozen=True)
-class LevelSolution:
+class LevelSolution(NamedTuple):
     """What a method found.
 
     Attributes:
@@ -67,7 +63,7 @@ class LevelSolution:
     residuals: dict[str, float]
     iterations: int
     solved: bool
-    certificate: float
+    certificate: float = math.nan
 
 
 class LevelSolver:
@@ -79,37 +75,20 @@ class LevelSolver:
 
     def solve(self, levels: StackedLevels, start: Array) -> LevelSolution:
         """Return the solution of ``levels`` closest to ``start``, (n,)."""
-        x, residuals, iterations, solved = (
-            self._lexicographic(levels, start)
-            if self.config.method == "lexicographic"
-            else self._cascade(levels, start)
-        )
-        remainder = float(certificate(unstack(levels, self.names), x).max()) if self.config.certify else np.nan
-        return LevelSolution(x, residuals, iterations, solved, remainder)
+        lexicographic = self.config.method == "lexicographic"
+        solution = self._lexicographic(levels, start) if lexicographic else self._cascade(levels, start)
+        if not self.config.certify:
+            return solution
+        remainders = certificate(unstack(levels, self.names), solution.x)
+        return solution._replace(certificate=float(remainders.max()))
 
-    def _lexicographic(self, levels: StackedLevels, start: Array) -> tuple[Array, dict[str, float], int, bool]:
-        x, slacks, _, iterations, code = solve_stacked(
-            levels.matrix, levels.lower, levels.upper, levels.breaks, start, _ITERATION_LIMIT
-        )
-        norms = _norms(levels.matrix, levels.lower, levels.upper, levels.breaks, slacks)
-        solved = code == 0 and not np.isnan(norms).any()
-        return x, dict(zip(self.names, norms.tolist(), strict=True)), iterations, solved
+    def _lexicographic(self, levels: StackedLevels, start: Array) -> LevelSolution:
+        result = solve_stacked(*levels, start, _ITERATION_LIMIT)
+        norms = result.norms.tolist()
+        solved = result.status == 0 and not math.isnan(sum(norms))
+        return LevelSolution(result.x, dict(zip(self.names, norms, strict=True)), result.iterations, solved)
 
-    def _cascade(self, levels: StackedLevels, start: Array) -> tuple[Array, dict[str, float], int, bool]:
+    def _cascade(self, levels: StackedLevels, start: Array) -> LevelSolution:
         solution = solve_cascade(unstack(levels, self.names), start, qp_solver=self.config.qp_solver)
-        return solution.x, solution.residual_norms, solution.programs, solution.status is CascadeStatus.SOLVED
-
-
-@compiled_entry
-def _norms(matrix: Array, lower: Array, upper: Array, breaks: IndexArray, slacks: Array) -> Array:
-    """Return the norm of the slacks of each level, (levels,); NaN where a row has a number that is none.
-
-    The solver takes comparisons with NaN for rows that are satisfied, so that its status does not tell.
-    """
-    norms = np.zeros(len(breaks) - 1)
-    for level in range(len(norms)):
-        for row in range(breaks[level], breaks[level + 1]):
-            norms[level] += slacks[row] * slacks[row]
-            if np.isnan(lower[row]) or np.isnan(upper[row]) or not np.isfinite(matrix[row].sum()):
-                norms[level] = np.nan
-    return np.sqrt(norms)
+        solved = solution.status is CascadeStatus.SOLVED
+        return LevelSolution(solution.x, solution.residual_norms, solution.programs, solved)

@@ -29,22 +29,32 @@ _COLUMNS = JOINT_COUNT + 1
 
 def reduce_dynamics(kinematics: Kinematics, stance_legs: list[int]) -> DecisionSpace:
     """Eliminate equations of motion and contacts of ``stance_legs`` (numbers in the order of ``LEGS``)."""
-    linear, offset = _reduce(
+    size = VELOCITY_SIZE + JOINT_COUNT + 3 * len(stance_legs)
+    space = DecisionSpace(np.empty((size, JOINT_COUNT)), np.empty(size))
+    _reduce(
         kinematics.mass_matrix,
         kinematics.nonlinear_effects,
         kinematics.contact_jacobians,
         kinematics.contact_bias,
         np.array(stance_legs, dtype=np.intp),
+        space.linear,
+        space.offset,
     )
-    return DecisionSpace(linear, offset)
+    return space
 
 
-def _compile_reduction(fingerprint: int) -> Callable[..., tuple[Array, Array]]:
+def _compile_reduction(fingerprint: int) -> Callable[..., None]:
     @compiled_entry
     def reduce(
-        mass_matrix: Array, nonlinear_effects: Array, jacobians: Array, biases: Array, legs: IndexArray
-    ) -> tuple[Array, Array]:
-        """Return [U; I; L], (30 + m, 12), and [u_0; 0; l_0], (30 + m,).
+        mass_matrix: Array,
+        nonlinear_effects: Array,
+        jacobians: Array,
+        biases: Array,
+        legs: IndexArray,
+        linear: Array,
+        offset: Array,
+    ) -> None:
+        """Write [U; I; L], (30 + m, 12), to ``linear`` and [u_0; 0; l_0], (30 + m,), to ``offset``.
 
         By Cholesky factors of M = G G^T and J M^-1 J^T = Y^T Y with Y = G^-1 J^T.
         Written out: on matrices of this size the calls of a library take longer than the arithmetic.
@@ -80,12 +90,11 @@ def _compile_reduction(fingerprint: int) -> Callable[..., tuple[Array, Array]]:
                 for c in range(_COLUMNS):
                     motion[i, c] += half[i, _COLUMNS + k] * forces[k, c]
         solve_transposed_factor(factor, motion)
-        linear, offset = np.zeros((size + JOINT_COUNT + contacts, JOINT_COUNT)), np.zeros(size + JOINT_COUNT + contacts)
+        linear[:], offset[:] = 0.0, 0.0
         linear[:size], offset[:size] = motion[:, :JOINT_COUNT], motion[:, JOINT_COUNT]
         for joint in range(JOINT_COUNT):
             linear[size + joint, joint] = 1.0
         linear[size + JOINT_COUNT :], offset[size + JOINT_COUNT :] = forces[:, :JOINT_COUNT], forces[:, JOINT_COUNT]
-        return linear, offset
 
     return reduce
 

@@ -1,16 +1,14 @@
 """The part of a controller that finds torques for the reference of a tick; what controller variants differ in."""
 
 import math
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from quadlab.controllers.reference import ControlReference
 from quadlab.geometry.rotations import Array
 from quadlab.robots.kinematics import Kinematics
 
 
-@dataclass(frozen=True)
-class Resolution:
+class Resolution(NamedTuple):
     """The answer for one tick.
 
     Attributes:

@@ -1,12 +1,14 @@
 """Levels of tasks in the form the hierarchical solver reads, written in the decision variables of the tick."""
 
 from collections.abc import Sequence
+from functools import cache
 from itertools import accumulate
 
 import numpy as np
 
-from quadlab.controllers.decision_space import BLOCKS, DecisionSpace
+from quadlab.controllers.decision_space import FIRST_COLUMNS, DecisionSpace
 from quadlab.controllers.hierarchy import Level, StackedLevels, stack
+from quadlab.controllers.hierarchy.level import IndexArray
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.task_levels import LevelConfig, build_task
 from quadlab.controllers.tasks.task import TaskRows
@@ -21,15 +23,29 @@ class TaskStack:
     def __init__(self, levels: Sequence[LevelConfig]) -> None:
         self.names = tuple(level.name for level in levels)
         self._tasks = [build_task(config) for level in levels for config in level.tasks]
-        self._level_ends = [0, *accumulate(len(level.tasks) for level in levels)]
+        self._level_ends = (0, *accumulate(len(level.tasks) for level in levels))
 
     def assemble(self, kinematics: Kinematics, reference: ControlReference, space: DecisionSpace) -> StackedLevels:
         """Return all rows of a tick, highest priority first, below the constraints of the decision space."""
         rows = [task.rows(kinematics, reference) for task in self._tasks]
-        starts = [0, *accumulate([len(part.lower) for part in rows])]
-        matrix, lower, upper = in_decision_variables(rows, space)
-        levels = StackedLevels(matrix, lower, upper, np.array([starts[end] for end in self._level_ends]))
+        starts = row_starts(tuple([len(part.lower) for part in rows]))
+        levels = StackedLevels(*in_decision_variables(rows, starts, space), level_breaks(starts, self._level_ends))
         return _below(space.constraints, levels) if space.constraints else levels
+
+
+@cache
+def row_starts(sizes: tuple[int, ...]) -> tuple[int, ...]:
+    """Return where the rows of each task begin, and their number at the end, for tasks of ``sizes`` rows."""
+    return (0, *accumulate(sizes))
+
+
+@cache
+def level_breaks(starts: tuple[int, ...], level_ends: tuple[int, ...]) -> IndexArray:
+    """Return the rows where levels begin, (levels + 1,), for levels that end before the tasks ``level_ends``.
+
+    There are as many results as ways to stand; they are shared by all ticks and must not be written to.
+    """
+    return np.array([starts[end] for end in level_ends])
 
 
 def _below(constraints: Sequence[Level], levels: StackedLevels) -> StackedLevels:
@@ -43,33 +59,59 @@ def _below(constraints: Sequence[Level], levels: StackedLevels) -> StackedLevels
     )
 
 
-def in_decision_variables(parts: Sequence[TaskRows], space: DecisionSpace) -> tuple[Array, Array, Array]:
-    """Return matrix, lower and upper of all ``parts``, in their order, in the decision variables.
-
-    The rows are written in y = [u_dot, tau, lambda] first, so that one product takes all of them to x.
-    """
-    lower = np.concatenate([part.lower for part in parts])
-    upper = np.concatenate([part.upper for part in parts])
-    wide = np.zeros((len(lower), len(space.offset)))
-    first = 0
-    for part in parts:
-        last = first + len(part.lower)
-        wide[first:last, BLOCKS[part.variable]] = part.matrix
-        first = last
-    return _substitute(wide, space.linear, space.offset, lower, upper), lower, upper
+def in_decision_variables(
+    parts: Sequence[TaskRows], starts: Sequence[int], space: DecisionSpace
+) -> tuple[Array, Array, Array]:
+    """Return matrix, lower and upper of all ``parts``, in their order and from row ``starts`` on, in x."""
+    count = starts[-1]
+    matrix, lower, upper = np.empty((count, space.size)), np.empty(count), np.empty(count)
+    for part, first in zip(parts, starts, strict=False):
+        _substitute(
+            part.matrix,
+            part.lower,
+            part.upper,
+            FIRST_COLUMNS[part.variable],
+            space.linear,
+            space.offset,
+            first,
+            matrix,
+            lower,
+            upper,
+        )
+    return matrix, lower, upper
 
 
 @compiled_entry
-def _substitute(wide: Array, linear: Array, offset: Array, lower: Array, upper: Array) -> Array:
-    """Return wide @ linear, and take wide @ offset from ``lower`` and ``upper``; most entries of ``wide`` are zero."""
-    rows, columns = len(wide), linear.shape[1]
-    matrix = np.zeros((rows, columns))
-    for row in range(rows):
-        for k in range(wide.shape[1]):
-            weight = wide[row, k]
+def _substitute(
+    rows: Array,
+    row_lower: Array,
+    row_upper: Array,
+    first_column: int,
+    linear: Array,
+    offset: Array,
+    first: int,
+    matrix: Array,
+    lower: Array,
+    upper: Array,
+) -> None:
+    """Write lower <= matrix x <= upper from row ``first`` on, for row_lower <= rows y <= row_upper.
+
+    Args:
+        rows: of a part of y, (m, n); most entries are zero.
+        row_lower, row_upper: (m,).
+        first_column: where this part stands in y = linear x + offset.
+        linear, offset: as in ``DecisionSpace``.
+        first: row to write to.
+        matrix, lower, upper: of all tasks.
+    """
+    for row in range(len(rows)):
+        target = first + row
+        matrix[target] = 0.0
+        lower[target], upper[target] = row_lower[row], row_upper[row]
+        for k in range(rows.shape[1]):
+            weight = rows[row, k]
             if weight != 0.0:
-                for column in range(columns):
-                    matrix[row, column] += weight * linear[k, column]
-                lower[row] -= weight * offset[k]
-                upper[row] -= weight * offset[k]
-    return matrix
+                for column in range(matrix.shape[1]):
+                    matrix[target, column] += weight * linear[first_column + k, column]
+                lower[target] -= weight * offset[first_column + k]
+                upper[target] -= weight * offset[first_column + k]

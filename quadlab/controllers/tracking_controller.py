@@ -1,7 +1,6 @@
 """The controller: measured state and plan to reference, reference to torques."""
 
 import time
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -101,4 +100,4 @@ class TrackingController:
             self._torques = resolution.torques
             return resolution
         self.fallbacks += 1
-        return replace(resolution, torques=self._torques, accelerations=np.zeros_like(resolution.accelerations))
+        return resolution._replace(torques=self._torques, accelerations=np.zeros_like(resolution.accelerations))

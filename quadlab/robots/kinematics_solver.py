@@ -11,8 +11,9 @@ from quadlab.robots.kinematics_terms import (
     Constants,
     Workspace,
     contact_points,
+    empty_coordinates,
     empty_terms,
-    pinocchio_coordinates,
+    write_coordinates,
     write_terms,
 )
 from quadlab.robots.legs import JOINTS_PER_LEG, LEG_COUNT
@@ -40,6 +41,7 @@ class KinematicsSolver:
         self._com = (self._data.com[0], self._data.vcom[0], self._data.Jcom)
         self._jacobian = self._data.J
         self._feet = tuple(self._data.oMf[frame].translation for frame in indexed.foot_frames)
+        self._coordinates = empty_coordinates()
         self._workspace: Workspace = (self._data.M, self._data.nle, self._com, self._jacobian, self._feet)
         self._constants: Constants = (
             indexed.order,
@@ -53,7 +55,12 @@ class KinematicsSolver:
 
     def to_pinocchio(self, state: RobotState) -> tuple[Array, Array]:
         """Return configuration q, (19,), and velocity v, (18,), in Pinocchio's order and conventions."""
-        return pinocchio_coordinates(
+        q, v = empty_coordinates()
+        self._write_coordinates(state, q, v)
+        return q, v
+
+    def _write_coordinates(self, state: RobotState, q: Array, v: Array) -> None:
+        write_coordinates(
             state.position_base_in_world,
             state.quat_wxyz,
             state.joint_positions,
@@ -63,12 +70,15 @@ class KinematicsSolver:
             state.rotation_base_to_world,
             self._indexed.position_indices,
             self._indexed.velocity_indices,
+            q,
+            v,
         )
 
     def solve(self, state: RobotState) -> Kinematics:
         """Compute kinematics and dynamics at ``state``."""
         rotation, position = state.rotation_base_to_world, state.position_base_in_world
-        q, v = self.to_pinocchio(state)
+        q, v = self._coordinates
+        self._write_coordinates(state, q, v)
         pin.computeAllTerms(self._model, self._data, q, v)
         pin.updateFramePlacements(self._model, self._data)
         dynamics, com, base, feet = terms = empty_terms()
@@ -101,7 +111,8 @@ class KinematicsSolver:
 
     def points(self, state: RobotState) -> MotionPoints:
         """Compute positions and velocities of centre of mass and feet at ``state``."""
-        q, v = self.to_pinocchio(state)
+        q, v = self._coordinates
+        self._write_coordinates(state, q, v)
         pin.centerOfMass(self._model, self._data, q, v)
         pin.computeJointJacobians(self._model, self._data)
         pin.updateFramePlacements(self._model, self._data)

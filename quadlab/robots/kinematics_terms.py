@@ -50,7 +50,7 @@ def add_product(matrix: Array, vector: Array, result: Array) -> None:
 
 
 @compiled_entry
-def pinocchio_coordinates(
+def write_coordinates(
     position: Array,
     quat_wxyz: Array,
     joints: Array,
@@ -60,9 +60,11 @@ def pinocchio_coordinates(
     rotation: Array,
     position_indices: IndexArray,
     velocity_indices: IndexArray,
-) -> tuple[Array, Array]:
-    """Return q (19,) and v (18,) in Pinocchio's order; arguments as in ``RobotState`` and ``PinocchioModel``."""
-    q, v = np.empty(_SIZE + 1), np.zeros(_SIZE)
+    q: Array,
+    v: Array,
+) -> None:
+    """Write q (19,) and v (18,) in Pinocchio's order; arguments as in ``RobotState`` and ``PinocchioModel``."""
+    v[:] = 0.0
     q[:3] = position
     q[3:6] = quat_wxyz[1:]
     q[6] = quat_wxyz[0]
@@ -71,7 +73,6 @@ def pinocchio_coordinates(
     for joint in range(len(joints)):
         q[position_indices[joint]] = joints[joint]
         v[velocity_indices[joint]] = joint_velocities[joint]
-    return q, v
 
 
 @compiled
@@ -137,14 +138,20 @@ def _write_base(rotation: Array, v: Array, position: Array, hips_in_base: Array,
 
 
 @compiled
-def _foot_bias(jacobian: Array, v: Array, joints: IndexArray, foot: Array, bias: Array, angular_bias: Array) -> None:
-    """Write the linear acceleration of ``foot`` (3,) and the angular one of its shank, both (3,), at u_dot = 0."""
-    linear, angular = np.zeros(3), np.zeros(3)  # spatial velocity of the body reached so far
+def _foot_bias(
+    jacobian: Array, v: Array, joints: IndexArray, foot: Array, bias: Array, angular_bias: Array, scratch: Array
+) -> None:
+    """Write the linear acceleration of ``foot`` (3,) and the angular one of its shank, both (3,), at u_dot = 0.
+
+    ``scratch`` is (5, 3): asking for memory leg by leg takes longer than the arithmetic.
+    """
+    scratch[:] = 0.0
+    linear, angular = scratch[0], scratch[1]  # spatial velocity of the body reached so far
+    joint_linear, joint_angular, product = scratch[2], scratch[3], scratch[4]
     add_product(jacobian[:3, :_BASE], v[:_BASE], linear)
     add_product(jacobian[3:, :_BASE], v[:_BASE], angular)
     bias[:] = 0.0
     angular_bias[:] = 0.0
-    joint_linear, joint_angular, product = np.empty(3), np.empty(3), np.empty(3)
     for joint in joints:
         for axis in range(3):
             joint_linear[axis] = jacobian[axis, joint] * v[joint]
@@ -184,7 +191,7 @@ def _write_feet(
     velocities[:] = 0.0
     linear[:] = 0.0
     contact[:] = 0.0
-    angular_bias, column = np.empty(3), np.empty(3)
+    angular_bias, column, scratch = np.empty(3), np.empty(3), np.empty((5, 3))
     for leg in range(len(feet)):
         foot = feet[leg]
         centers[leg] = foot
@@ -202,7 +209,7 @@ def _write_feet(
                     axes[leg, axis, index - _BASE] = omega[axis]
             contact[leg, 0, own] -= radius * omega[1]  # omega x (0, 0, -radius)
             contact[leg, 1, own] += radius * omega[0]
-        _foot_bias(jacobian, v, joints[leg], foot, bias[leg], angular_bias)
+        _foot_bias(jacobian, v, joints[leg], foot, bias[leg], angular_bias, scratch)
         contact_bias[leg] = bias[leg]
         contact_bias[leg, 0] -= radius * angular_bias[1]
         contact_bias[leg, 1] += radius * angular_bias[0]
@@ -237,6 +244,11 @@ def write_terms(
     _write_com(com, dynamics[2], rotation, gravity, mass, order, of_com)
     _write_base(rotation, v, position, hips_in_base, of_base)
     _write_feet(jacobian, v, feet, joints, radius, of_feet)
+
+
+def empty_coordinates() -> tuple[Array, Array]:
+    """Return arrays for ``write_coordinates``; their numbers are arbitrary."""
+    return np.empty(_SIZE + 1), np.empty(_SIZE)
 
 
 def empty_terms() -> tuple[DynamicsTerms, ComTerms, BaseTerms, FootTerms]:

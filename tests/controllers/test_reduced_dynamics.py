@@ -52,7 +52,7 @@ def test_rows_mean_the_same_when_written_in_torques(robot: RobotModel, variable:
         Variable.TORQUE: torques,
     }[variable]
     rows = TaskRows(variable, generator.normal(size=(5, len(block))), np.full(5, -np.inf), generator.normal(size=5))
-    matrix, lower, upper = in_decision_variables([rows], dynamics)
+    matrix, lower, upper = in_decision_variables([rows], [0, 5], dynamics)
     np.testing.assert_allclose(upper - matrix @ torques, rows.upper - rows.matrix @ block, rtol=1e-9, atol=1e-8)
     assert np.all(np.isneginf(lower))
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,9 +79,10 @@ class Level:
         return above
 
 
-@dataclass(frozen=True)
-class StackedLevels:
+class StackedLevels(NamedTuple):
     """All levels of a hierarchy as the compiled solver reads them.
+
+    A named tuple, since it is made in every tick and takes half the time of a frozen dataclass.
 
     Attributes:
         matrix: (m, n) C-contiguous, rows of all levels, highest priority first.

@@ -69,16 +69,14 @@ def solve_hierarchy(
         raise HierarchyError(f"start: expected ({dimension},) finite numbers, has shape {point.shape}: {point}")
     if iteration_limit < 1:
         raise HierarchyError(f"iteration_limit: expected at least 1, is {iteration_limit}")
-    x, slacks, active, iterations, code = solve_stacked(
-        stacked.matrix, stacked.lower, stacked.upper, stacked.breaks, point, iteration_limit
-    )
+    result = solve_stacked(*stacked, point, iteration_limit)
     names = [level.name for level in levels]
-    slack_of = dict(zip(names, np.split(slacks, stacked.breaks[1:-1]), strict=True))
+    slack_of = dict(zip(names, np.split(result.slacks, stacked.breaks[1:-1]), strict=True))
     return HierarchySolution(
-        x=x,
+        x=result.x,
         residual_norms={name: math.hypot(*slack) for name, slack in slack_of.items()},
         slacks=slack_of,
-        active=dict(zip(names, np.split(active, stacked.breaks[1:-1]), strict=True)),
-        iterations=iterations,
-        status=_STATUS_OF_CODE[code],
+        active=dict(zip(names, np.split(result.active, stacked.breaks[1:-1]), strict=True)),
+        iterations=result.iterations,
+        status=_STATUS_OF_CODE[result.status],
     )

@@ -42,11 +42,11 @@ def position_limit(
         bounds: r_min and r_max, (m,) or one number for all.
         dt: look-ahead k_t t_s in [s]; the larger, the softer.
     """
-    return TaskRows(Variable.ACCELERATION, jacobian, *_acceleration_bounds(bias, position, velocity, bounds, dt))
+    return TaskRows(Variable.ACCELERATION, jacobian, *acceleration_bounds(bias, position, velocity, bounds, dt))
 
 
 @compiled_entry
-def _acceleration_bounds(
+def acceleration_bounds(
     bias: Array, position: Array, velocity: Array, bounds: tuple[Array | float, Array | float], dt: float
 ) -> tuple[Array, Array]:
     """Return the bounds of J u_dot, (m,) each, that ``position_limit`` describes."""

@@ -11,30 +11,32 @@ from quadlab import geometry
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
-from quadlab.controllers.tasks.task import TaskRows, Variable, equation
+from quadlab.controllers.tasks.task import TaskRows, Variable, empty_equation, equation
 from quadlab.geometry.rotation_error import error_below_half_turn, rotation_error
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry, source_fingerprint
-from quadlab.robots.kinematics import Kinematics
+from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 
 
-def _angular_target(gains: TrackingGains, kinematics: Kinematics, reference: ControlReference) -> Array:
-    """Return what J_omega u_dot shall be in world axes, (3,) in [rad/s^2]; the error is R_ref boxminus R."""
-    target = _target_below_half_turn(
+def _write_angular_target(
+    gains: TrackingGains, kinematics: Kinematics, reference: ControlReference, target: Array
+) -> None:
+    """Write what J_omega u_dot shall be in world axes, (3,) in [rad/s^2]; the error is R_ref boxminus R."""
+    _target_below_half_turn(
         gains.proportional_per_s2,
         gains.derivative_per_s,
         (reference.base_rotation, kinematics.base_rotation),
         (reference.base_angular_velocity, kinematics.base_angular_velocity),
         kinematics.base_bias,
+        target,
     )
-    if not math.isnan(target[0]):
-        return target
-    error = rotation_error(reference.base_rotation, kinematics.base_rotation)
-    velocity_error = reference.base_angular_velocity - kinematics.base_angular_velocity
-    return np.asarray(gains.acceleration(0.0, velocity_error, error) - kinematics.base_bias[3:])
+    if math.isnan(target[0]):
+        error = rotation_error(reference.base_rotation, kinematics.base_rotation)
+        velocity_error = reference.base_angular_velocity - kinematics.base_angular_velocity
+        target[:] = gains.acceleration(0.0, velocity_error, error) - kinematics.base_bias[3:]
 
 
-def _compile_target(fingerprint: int) -> Callable[..., Array]:
+def _compile_target(fingerprint: int) -> Callable[..., None]:
     @compiled_entry
     def target_below_half_turn(
         proportional_per_s2: float,
@@ -42,12 +44,13 @@ def _compile_target(fingerprint: int) -> Callable[..., Array]:
         rotations: tuple[Array, Array],
         velocities: tuple[Array, Array],
         base_bias: Array,
-    ) -> Array:
-        """Return the target of ``_angular_target``; NaN near half a turn. Pairs are reference and measured."""
+        target: Array,
+    ) -> None:
+        """Write the target of ``_write_angular_target``; NaN near half a turn. Pairs are reference and measured."""
         _ = fingerprint  # a closure variable, so that the cached machine code follows a change of what is called
         error = error_below_half_turn(rotations[0], rotations[1])
         zero = np.zeros(3)
-        return tracking_target(proportional_per_s2, derivative_per_s, zero, velocities, (error, zero), base_bias[3:])
+        tracking_target(proportional_per_s2, derivative_per_s, zero, velocities, (error, zero), base_bias[3:], target)
 
     return target_below_half_turn
 
@@ -68,11 +71,13 @@ class BaseYawTask:
 
     def __init__(self, config: Config) -> None:
         self.config = config
+        self._target = np.empty(3)
+        self._vertical_target = self._target[2:]
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return one row in accelerations."""
-        target = _angular_target(self.config, kinematics, reference)
-        return equation(Variable.ACCELERATION, kinematics.base_jacobian[5:], target[2:])
+        _write_angular_target(self.config, kinematics, reference, self._target)
+        return equation(Variable.ACCELERATION, kinematics.base_jacobian[5:], self._vertical_target)
 
 
 @register("task", "base_roll_pitch")
@@ -86,23 +91,25 @@ class BaseRollPitchTask:
 
     def __init__(self, config: Config) -> None:
         self.config = config
+        self._target = np.empty(3)
+        self._rows = empty_equation(Variable.ACCELERATION, 2, VELOCITY_SIZE)
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
-        target = _angular_target(self.config, kinematics, reference)
-        matrix, turned = _in_heading_frame(kinematics.base_rotation, kinematics.base_jacobian, target)
-        return equation(Variable.ACCELERATION, matrix, turned)
+        _write_angular_target(self.config, kinematics, reference, self._target)
+        _turn_into_heading_frame(
+            kinematics.base_rotation, kinematics.base_jacobian, self._target, self._rows.matrix, self._rows.upper
+        )
+        return self._rows
 
 
 @compiled_entry
-def _in_heading_frame(rotation: Array, jacobian: Array, target: Array) -> tuple[Array, Array]:
-    """Return the roll and pitch rows, (2, 18), of ``jacobian``, (6, 18), and of ``target``, (2,) of (3,)."""
+def _turn_into_heading_frame(rotation: Array, jacobian: Array, target: Array, matrix: Array, turned: Array) -> None:
+    """Write the roll and pitch rows of ``jacobian``, (2, 18) of (6, 18), and of ``target``, (2,) of (3,)."""
     length = math.hypot(rotation[0, 0], rotation[1, 0])
     cosine, sine = rotation[0, 0] / length, rotation[1, 0] / length
-    matrix, turned = np.empty((2, jacobian.shape[1])), np.empty(2)
     for column in range(jacobian.shape[1]):
         matrix[0, column] = cosine * jacobian[3, column] + sine * jacobian[4, column]
         matrix[1, column] = cosine * jacobian[4, column] - sine * jacobian[3, column]
     turned[0] = cosine * target[0] + sine * target[1]
     turned[1] = cosine * target[1] - sine * target[0]
-    return matrix, turned

@@ -4,9 +4,9 @@ from typing import Literal
 
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
-from quadlab.controllers.tasks.task import TaskRows, Variable, equation
-from quadlab.robots.kinematics import Kinematics
+from quadlab.controllers.tasks.gains import TrackingGains, write_tracking_rows
+from quadlab.controllers.tasks.task import TaskRows, Variable, empty_equation
+from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 
 
 @register("task", "base_position")
@@ -23,15 +23,18 @@ class BasePositionTask:
 
     def __init__(self, config: Config) -> None:
         self.config = config
+        self._rows = empty_equation(Variable.ACCELERATION, 2, VELOCITY_SIZE)
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
-        target = tracking_target(
+        write_tracking_rows(
             self.config.proportional_per_s2,
             self.config.derivative_per_s,
             reference.com_acceleration,
-            (reference.com_velocity, kinematics.base_linear_velocity[:2]),
-            (reference.base_position, kinematics.base_position[:2]),
-            kinematics.base_bias[:2],
+            (reference.com_velocity, kinematics.base_linear_velocity),
+            (reference.base_position, kinematics.base_position),
+            kinematics.base_bias,
+            kinematics.base_jacobian,
+            (self._rows.matrix, self._rows.upper),
         )
-        return equation(Variable.ACCELERATION, kinematics.base_jacobian[:2], target)
+        return self._rows

@@ -4,9 +4,9 @@ from typing import Literal
 
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
-from quadlab.controllers.tasks.task import TaskRows, Variable, equation
-from quadlab.robots.kinematics import Kinematics
+from quadlab.controllers.tasks.gains import TrackingGains, write_tracking_rows
+from quadlab.controllers.tasks.task import TaskRows, Variable, empty_equation
+from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 
 
 @register("task", "com_position")
@@ -20,15 +20,18 @@ class ComPositionTask:
 
     def __init__(self, config: Config) -> None:
         self.config = config
+        self._rows = empty_equation(Variable.ACCELERATION, 2, VELOCITY_SIZE)
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
-        target = tracking_target(
+        write_tracking_rows(
             self.config.proportional_per_s2,
             self.config.derivative_per_s,
             reference.com_acceleration,
-            (reference.com_velocity, kinematics.com_velocity[:2]),
-            (reference.com_position, kinematics.com_position[:2]),
-            kinematics.com_bias[:2],
+            (reference.com_velocity, kinematics.com_velocity),
+            (reference.com_position, kinematics.com_position),
+            kinematics.com_bias,
+            kinematics.com_jacobian,
+            (self._rows.matrix, self._rows.upper),
         )
-        return equation(Variable.ACCELERATION, kinematics.com_jacobian[:2], target)
+        return self._rows

@@ -10,7 +10,8 @@ from quadlab.controllers.tasks.task import TaskRows, Variable, equation
 from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.legs import LEG_COUNT
 
-_IDENTITY, _ZERO = np.eye(3 * LEG_COUNT), np.zeros(3 * LEG_COUNT)
+_ROWS = [equation(Variable.FORCE, np.eye(3 * legs), np.zeros(3 * legs)) for legs in range(LEG_COUNT + 1)]
+"""By number of standing legs."""
 
 
 @register("task", "contact_force_minimisation")
@@ -27,5 +28,4 @@ class ContactForceMinimisationTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return three rows in forces for each standing leg."""
-        size = 3 * len(reference.stance_legs)
-        return equation(Variable.FORCE, _IDENTITY[:size, :size], _ZERO[:size])
+        return _ROWS[len(reference.stance_legs)]

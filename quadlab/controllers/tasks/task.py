@@ -3,6 +3,8 @@
 from enum import StrEnum
 from typing import NamedTuple, Protocol
 
+import numpy as np
+
 from quadlab.controllers.reference import ControlReference
 from quadlab.geometry.rotations import Array
 from quadlab.robots.kinematics import Kinematics
@@ -36,6 +38,16 @@ class TaskRows(NamedTuple):
     upper: Array
 
 
+def empty_rows(variable: Variable, count: int, size: int) -> TaskRows:
+    """Return ``count`` inequalities in ``size`` unknowns with arbitrary numbers, to be written to in each tick."""
+    return TaskRows(variable, np.empty((count, size)), np.empty(count), np.empty(count))
+
+
+def empty_equation(variable: Variable, count: int, size: int) -> TaskRows:
+    """Return ``count`` equations in ``size`` unknowns with arbitrary numbers, to be written to in each tick."""
+    return equation(variable, np.empty((count, size)), np.empty(count))
+
+
 def equation(variable: Variable, matrix: Array, target: Array) -> TaskRows:
     """Return the rows of ``matrix`` x = ``target``."""
     return TaskRows(variable, matrix, target, target)
@@ -45,5 +57,8 @@ class Task(Protocol):
     """One objective or limit; it knows its gains, not its priority."""
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
-        """Return the rows of this tick; no rows (m = 0) if nothing is asked."""
+        """Return the rows of this tick; no rows (m = 0) if nothing is asked.
+
+        A task may write to the same arrays in every tick, so that rows are valid until the next call.
+        """
         ...

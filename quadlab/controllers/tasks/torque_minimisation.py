@@ -10,7 +10,7 @@ from quadlab.controllers.tasks.task import TaskRows, Variable, equation
 from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.legs import JOINT_COUNT
 
-_IDENTITY, _ZERO = np.eye(JOINT_COUNT), np.zeros(JOINT_COUNT)
+_ROWS = equation(Variable.TORQUE, np.eye(JOINT_COUNT), np.zeros(JOINT_COUNT))
 
 
 @register("task", "torque_minimisation")
@@ -27,4 +27,4 @@ class TorqueMinimisationTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return twelve rows in torques."""
-        return equation(Variable.TORQUE, _IDENTITY, _ZERO)
+        return _ROWS

@@ -59,14 +59,13 @@ def test_stacked_and_named_forms_agree_and_leave_their_input_alone() -> None:
         stacked = stack(levels)
         before = stacked.matrix.copy(), stacked.lower.copy(), stacked.upper.copy()
         start = np.ones(12)
-        x, slacks, active, iterations, status = solve_stacked(
-            stacked.matrix, stacked.lower, stacked.upper, stacked.breaks, start, 500
-        )
+        result = solve_stacked(*stacked, start, 500)
         named = solve_hierarchy(levels, start)
-        np.testing.assert_array_equal(x, named.x)
-        np.testing.assert_array_equal(slacks, np.concatenate(list(named.slacks.values())))
-        np.testing.assert_array_equal(active, np.concatenate(list(named.active.values())))
-        assert (iterations, status) == (named.iterations, 0)
+        np.testing.assert_array_equal(result.x, named.x)
+        np.testing.assert_array_equal(result.slacks, np.concatenate(list(named.slacks.values())))
+        np.testing.assert_array_equal(result.active, np.concatenate(list(named.active.values())))
+        np.testing.assert_allclose(result.norms, list(named.residual_norms.values()), atol=1e-15)
+        assert (result.iterations, result.status) == (named.iterations, 0)
         for array, copy in zip((stacked.matrix, stacked.lower, stacked.upper), before, strict=True):
             np.testing.assert_array_equal(array, copy)
         np.testing.assert_array_equal(start, 1.0)
