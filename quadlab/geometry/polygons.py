@@ -35,6 +35,17 @@ def distance_outside(point: Array, corners: Array) -> float:
     return min(_distance_to_segment(point, hull[i - 1], hull[i]) for i in range(len(hull)))
 
 
+def distance_inside(point: Array, corners: Array) -> float:
+    """Return how far ``point`` (2,) is from the border of the hull of ``corners`` (n, 2) in [m]; 0 outside.
+
+    A hull of one or two points has no inside.
+    """
+    hull = convex_hull(corners)
+    if len(hull) <= 2 or not _is_inside(point, hull):
+        return 0.0
+    return min(_distance_to_segment(point, hull[i - 1], hull[i]) for i in range(len(hull)))
+
+
 def _turn(a: Array, b: Array, c: Array) -> float:
     return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 

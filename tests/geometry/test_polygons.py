@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import lsq_linear
 from scipy.spatial import ConvexHull
 
-from quadlab.geometry.polygons import convex_hull, distance_outside
+from quadlab.geometry.polygons import convex_hull, distance_inside, distance_outside
 from quadlab.geometry.rotations import Array
 
 TRIANGLE = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
@@ -81,3 +81,18 @@ def test_distances_to_a_triangle(point: list[float], distance: float) -> None:
 @pytest.mark.parametrize(("point", "distance"), [([0.5, 0.0], 0.0), ([0.5, 0.2], 0.2), ([4.0, 4.0], 5.0)])
 def test_two_feet_support_a_segment(point: list[float], distance: float) -> None:
     assert distance_outside(np.array(point), TRIANGLE[:2]) == pytest.approx(distance)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_distance_inside_is_that_to_the_nearest_edge(seed: int) -> None:
+    generator = np.random.default_rng(seed)
+    corners = generator.normal(size=(5, 2))
+    equations = ConvexHull(corners).equations
+    for point in generator.normal(size=(50, 2)):
+        expected = max(0.0, -float(np.max(equations[:, :2] @ point + equations[:, 2])))
+        assert distance_inside(point, corners) == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_nothing_is_inside_a_point_or_a_segment(count: int) -> None:
+    assert distance_inside(TRIANGLE[:count].mean(axis=0), TRIANGLE[:count]) == 0.0

@@ -39,6 +39,10 @@ class ContactConfig(StrictModel):
         expected_touch_down: share of the swing at which the foot reaches the ground it expects; from then on it
             searches.
         latest_lift_off: share of a swing after which a lift-off that had to wait is skipped.
+        capture_margin_m: a leg is spared only while the capture point is so far inside the support of the legs that
+            stand by plan, or so near the planned one, in [m]: before, its lift-off waits; after, its swing hastens.
+            None never looks at it.
+        hastened_swing_s: duration of a swing at whose pace a hastened one ends in [s].
         minimum_stance_legs: a leg lifts off only if so many others stand, and all that shall stand by plan; one that
             lost its contact searches only if so many others stand.
         lost_contact_s: time without force after which a standing leg searches the ground in [s].
@@ -52,6 +56,8 @@ class ContactConfig(StrictModel):
     earliest_touch_down: Fraction
     expected_touch_down: Fraction
     latest_lift_off: Fraction
+    capture_margin_m: Positive | None
+    hastened_swing_s: Positive
     minimum_stance_legs: int
     lost_contact_s: Positive
     settling_s: NonNegative

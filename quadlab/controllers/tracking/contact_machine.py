@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from quadlab.controllers.telemetry import LegMode
+from quadlab.controllers.tracking.balance import AskForBalance
 from quadlab.controllers.tracking.config import ContactConfig
 from quadlab.gaits.schedule import BoolArray, ContactSchedule, Swing
 from quadlab.geometry.rotations import Array
@@ -53,16 +54,25 @@ class LegContact:
         """Planned time in the air of the swing under way, at least ``SHORTEST_SWING_S``, in [s]."""
         return max(self.touch_down_due_s - self.lift_off_s, SHORTEST_SWING_S)
 
+    def hasten(self, plan_time_s: float, duration_s: float) -> None:
+        """End the swing under way at the pace of one that takes ``duration_s`` in [s]; its phase does not jump."""
+        self.lift_off_s = plan_time_s - self.swing_phase(plan_time_s) * duration_s
+        self.touch_down_due_s = self.lift_off_s + duration_s
+
 
 @dataclass
 class ContactMachine:
-    """Follows the schedule leg by leg; early and late touch-down, lost contact, lift-off that must wait."""
+    """Follows the schedule leg by leg; early and late touch-down, lost contact, lift-off that must wait.
+
+    A leg that the balance cannot spare stays on the ground, or comes back to it at the pace of a fast swing.
+    """
 
     config: ContactConfig
     schedule: ContactSchedule
     touch_down_force: float
     legs: list[LegContact]
     events: list[str] = field(default_factory=list)
+    _balance: AskForBalance | None = field(init=False, default=None)
 
     @property
     def stance(self) -> BoolArray:
@@ -79,7 +89,14 @@ class ContactMachine:
         """Whether a leg is past its planned touch-down or has lost its contact."""
         return any(leg.mode is LegMode.SEARCH for leg in self.legs)
 
-    def update(self, plan_time_s: float, period_s: float, feet: Array, normal_forces: Array) -> list[str]:
+    def update(
+        self,
+        plan_time_s: float,
+        period_s: float,
+        feet: Array,
+        normal_forces: Array,
+        balance: AskForBalance | None = None,
+    ) -> list[str]:
         """Advance by one tick and return what happened, one line an event.
 
         Args:
@@ -87,8 +104,10 @@ class ContactMachine:
             period_s: control period in [s].
             feet: contact points of all feet in the world, (4, 3) in [m].
             normal_forces: measured, (4,) in [N].
+            balance: tells the robot's balance, which few ticks depend on; None takes it for kept.
         """
         self.events = []
+        self._balance = balance
         for leg in range(LEG_COUNT):
             touches = bool(normal_forces[leg] > self.touch_down_force)
             completed, swing = self.schedule.swing_at(leg, plan_time_s)
@@ -158,6 +177,8 @@ class ContactMachine:
     def _fly(self, leg: int, time_s: float, touches: bool, foot: Array) -> None:
         """Touch down, early, in time or late."""
         state = self.legs[leg]
+        if state.mode is LegMode.SWING:
+            self._hasten_if_needed(leg, time_s)
         phase = state.swing_phase(time_s)
         if touches and (state.mode is LegMode.SEARCH or phase > self.config.earliest_touch_down):
             self._touch_down(leg, time_s, foot)
@@ -180,10 +201,28 @@ class ContactMachine:
 
     def _may_lift_off(self, leg: int, time_s: float) -> bool:
         """Whether enough others stand, among them all that the plan counts on: not any two legs can carry a trot."""
+        complete = all(self.legs[other].mode is LegMode.STANCE for other in self._counted_on_besides(leg, time_s))
+        enough = self._others_standing(leg) >= self.config.minimum_stance_legs
+        return complete and enough and self._can_spare(leg, time_s)
+
+    def _counted_on_besides(self, leg: int, time_s: float) -> list[int]:
+        """Return the other legs that stand by plan."""
         others = [other for other in range(LEG_COUNT) if other != leg]
-        counted_on = [other for other in others if self.schedule.swing_at(other, time_s)[1] is None]
-        complete = all(self.legs[other].mode is LegMode.STANCE for other in counted_on)
-        return complete and self._others_standing(leg) >= self.config.minimum_stance_legs
+        return [other for other in others if self.schedule.swing_at(other, time_s)[1] is None]
+
+    def _can_spare(self, leg: int, time_s: float) -> bool:
+        """Whether the other legs that stand by plan keep the balance."""
+        margin = self.config.capture_margin_m
+        if margin is None or self._balance is None:
+            return True
+        return self._balance().held_by(self._counted_on_besides(leg, time_s), margin)
+
+    def _hasten_if_needed(self, leg: int, time_s: float) -> None:
+        state, duration_s = self.legs[leg], self.config.hastened_swing_s
+        if state.swing_duration_s <= duration_s or state.swing_phase(time_s) >= 1.0 or self._can_spare(leg, time_s):
+            return
+        self._note(leg, f"hastens at {state.swing_phase(time_s):.2f} of the swing")
+        state.hasten(time_s, duration_s)
 
     def _too_late(self, swing: Swing, time_s: float) -> bool:
         return time_s > swing.start_s + self.config.latest_lift_off * swing.duration_s

@@ -15,6 +15,7 @@ from quadlab.controllers.tracking.alignment import (
     feet_alignment,
     identity_alignment,
 )
+from quadlab.controllers.tracking.balance import Balance
 from quadlab.controllers.tracking.config import Alignment, TrackingConfig
 from quadlab.controllers.tracking.contact_machine import start_contacts
 from quadlab.controllers.tracking.feet import FootPlanner
@@ -24,6 +25,7 @@ from quadlab.controllers.tracking.plan_clock import PlanClock
 from quadlab.controllers.tracking.torso import ground_axes, torso_rotation
 from quadlab.estimation.terrain_plane import TerrainPlane, blend, fit_plane
 from quadlab.geometry.rotations import Array, yaw_of
+from quadlab.planners.capture_point import capture_point
 from quadlab.planners.plan import MotionPlan, PlanSample
 from quadlab.planners.problem import GRAVITY
 from quadlab.robots.kinematics import Kinematics
@@ -116,8 +118,14 @@ class MotionTracker:
         waits = self.config.contact.freeze_plan_while_searching and self._contacts.searching
         self._clock.advance(waits, self.period_s)
         plan_time_s = time_s - self._clock.waited_s
-        events = self._contacts.update(plan_time_s, self.period_s, kinematics.foot_positions, normal_forces)
         sample = self.plan.at(plan_time_s)
+        events = self._contacts.update(
+            plan_time_s,
+            self.period_s,
+            kinematics.foot_positions,
+            normal_forces,
+            lambda: self._balance(sample, kinematics),
+        )
         stance_points = self._contacts.stance_points
         self._update_terrain(stance_points, kinematics)
         raw = self._raw_alignment(self.config.alignment.torso, sample, stance_points, kinematics)
@@ -131,6 +139,15 @@ class MotionTracker:
             terrain=self._terrain,
             modes=tuple(leg.mode for leg in self._contacts.legs),
             events=tuple(events),
+        )
+
+    def _balance(self, sample: PlanSample, kinematics: Kinematics) -> Balance:
+        alignment, height = self._alignment.current, self._base_height
+        position, velocity = alignment.position(sample.com_position[:2]), alignment.vector(sample.com_velocity[:2])
+        return Balance(
+            kinematics.foot_positions[:, :2],
+            capture_point(kinematics.com_position[:2], kinematics.com_velocity[:2], height),
+            capture_point(position, self._clock.rate * velocity, height),
         )
 
     def _update_terrain(self, stance_points: Array, kinematics: Kinematics) -> None:

@@ -9,6 +9,7 @@ import pytest
 from controller_cases import tracking_config
 
 from quadlab.controllers.telemetry import LegMode
+from quadlab.controllers.tracking.balance import Balance
 from quadlab.controllers.tracking.contact_machine import ContactMachine, start_contacts
 from quadlab.gaits.schedule import ContactSchedule
 from quadlab.geometry.rotations import Array
@@ -38,18 +39,23 @@ def machine_for(schedule: ContactSchedule, **changes: Any) -> ContactMachine:
     return start_contacts(tracking_config(contact=changes).contact, schedule, WEIGHT, FEET)
 
 
+AS_PLANNED = Balance(FEET[:, :2], np.zeros(2), np.zeros(2))
+
+
 @dataclass
 class Script:
     """Runs a machine and remembers when its modes changed.
 
     Attributes:
         machine: under test.
+        balance: told to the machine in every tick.
         time_s: plan time of the last tick.
         changes: (time, leg, new mode).
         events: (time, text).
     """
 
     machine: ContactMachine
+    balance: Balance = AS_PLANNED
     time_s: float = 0.0
     changes: list[tuple[float, int, LegMode]] = field(default_factory=list)
     events: list[tuple[float, str]] = field(default_factory=list)
@@ -59,7 +65,7 @@ class Script:
         while self.time_s < until - 1e-9:
             modes = self.modes
             forces = 0.25 * WEIGHT * np.array(loaded(self.time_s), dtype=float)
-            events = self.machine.update(self.time_s, PERIOD, feet, forces)
+            events = self.machine.update(self.time_s, PERIOD, feet, forces, lambda: self.balance)
             self.events += [(self.time_s, event) for event in events]
             self.changes += [(self.time_s, leg, mode) for leg, mode in enumerate(self.modes) if mode is not modes[leg]]
             self.time_s += PERIOD
