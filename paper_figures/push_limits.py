@@ -18,21 +18,20 @@ def speeds_mps(limits: pd.DataFrame) -> "pd.Series[float]":
     return limits["limit"].fillna(0.0) * PUSH_S / ANYMAL_KG
 
 
-def limit_claims(limits: pd.DataFrame, needed_mps: tuple[float, float], what: str, cause: str) -> list[Claim]:
+def limit_claims(limits: pd.DataFrame, needed_mps: tuple[float, float], what: str) -> list[Claim]:
     """Return smallest and median push survived, of the reference and of the variants beside it at the same cases.
 
     Args:
         limits: one row a direction and phase, by ``variant``.
         needed_mps: smallest and median J / m in [m/s] that count as good; no paper prints any.
         what: for the text.
-        cause: why the weakest cases fall, in one sentence.
     """
     reference = speeds_mps(limits[limits["variant"] == "reference"])
     minimum, median = float(reference.min()), float(reference.median())
     holds = minimum >= needed_mps[0] and median >= needed_mps[1]
     weak = int((reference < needed_mps[0]).sum())
     aim = f"{needed_mps[0]:g} / {needed_mps[1]:g} m/s aimed at here"
-    why = "" if holds else f"Below the {aim}; {weak} cases are below {needed_mps[0]:g}. {cause}"
+    why = "" if holds else f"Below the {aim}; {weak} cases are below {needed_mps[0]:g}."
     text = f"largest push survived ({what}), minimum / median J/m [m/s]"
     ours = f"{minimum:.2f} / {median:.2f}, {len(reference)} cases"
     first = Claim(text, "not printed", ours, Verdict.NEW, why)

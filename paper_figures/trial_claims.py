@@ -13,6 +13,7 @@ VARIANTS = {
     "alignment base": "with base-centred alignment alone",
     "alignment feet": "with feet-centred alignment alone",
     "no foothold feedback": "without foothold feedback",
+    "capture point ignored": "with lift-offs and swings as planned, wherever the capture point is",
     "stack of the paper": "with the priorities of the paper",
 }
 """Levels of the factor ``variant`` beside "reference": one part of the controller changed."""

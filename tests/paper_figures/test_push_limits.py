@@ -6,7 +6,6 @@ import pytest
 from paper_figures.push_limits import ANYMAL_KG, PUSH_S, limit_claims, same_cases, speeds_mps
 
 START = "scenario.pushes.0.start_s"
-CAUSE = "It trips."
 LIMITS = pd.DataFrame(
     [("reference", 0, 1.8, 300.0), ("reference", 90, 1.8, 120.0), ("alignment none", 90, 1.8, None)],
     columns=["variant", "direction", START, "limit"],
@@ -20,7 +19,7 @@ def test_push_that_fells_at_once_counts_as_zero() -> None:
 def test_variant_stands_beside_the_reference_at_its_own_cases() -> None:
     variant = LIMITS[LIMITS["variant"] == "alignment none"]
     assert same_cases(LIMITS, variant)["limit"].tolist() == [120.0]
-    _, claim = limit_claims(LIMITS, (0.5, 1.0), "trot", CAUSE)
+    _, claim = limit_claims(LIMITS, (0.5, 1.0), "trot")
     assert claim.ours == "0.00 / 0.00, 1 cases; reference there 0.59 / 0.59"
 
 
@@ -28,6 +27,6 @@ def test_variant_stands_beside_the_reference_at_its_own_cases() -> None:
     ("needed", "why"), [((0.5, 1.0), ""), ((0.6, 1.0), "1 cases are below 0.6"), ((0.5, 2.0), "0 cases")]
 )
 def test_missing_the_aim_is_said(needed: tuple[float, float], why: str) -> None:
-    claim = limit_claims(LIMITS, needed, "trot", CAUSE)[0]
+    claim = limit_claims(LIMITS, needed, "trot")[0]
     assert why in claim.why
-    assert (CAUSE in claim.why) == bool(why)
+    assert bool(claim.why) == bool(why)
