@@ -102,5 +102,5 @@ def claims(results: StudyResults) -> list[Claim]:
             f"by {abs(moved_mm):.0f} mm to the {'left' if moved_mm > 0.0 else 'right'}",
             verdict(holds=abs(moved_mm) > 10.0),
         ),
-        *limit_claims(results.limits(LIMITS), NEEDED_MPS, f"walk, {PUSH_S} s, ekf"),
+        *limit_claims(results.limits(LIMITS), results.table(LIMITS), NEEDED_MPS, f"walk, {PUSH_S} s, ekf"),
     ]

@@ -97,7 +97,7 @@ def claims(results: StudyResults) -> list[Claim]:
             "Off the plan as it is aligned; off the place that was planned before the pushes, the robot stays.",
         ),
         *variant_claims(table, "variant", VARIANTS),
-        *limit_claims(results.limits(LIMITS), NEEDED_MPS, f"trot straight on, {PUSH_S} s, ekf"),
+        *limit_claims(results.limits(LIMITS), results.table(LIMITS), NEEDED_MPS, f"trot straight on, {PUSH_S} s, ekf"),
     ]
 
 
