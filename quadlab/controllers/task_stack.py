@@ -64,46 +64,32 @@ def in_decision_variables(
 ) -> tuple[Array, Array, Array]:
     """Return matrix, lower and upper of all ``parts``, in their order and from row ``starts`` on, in x."""
     count = starts[-1]
-    matrix, lower, upper = np.empty((count, space.size)), np.empty(count), np.empty(count)
+    result = np.empty((count, space.size)), np.empty(count), np.empty(count)
     for part, first in zip(parts, starts, strict=False):
-        _substitute(
-            part.matrix,
-            part.lower,
-            part.upper,
-            FIRST_COLUMNS[part.variable],
-            space.linear,
-            space.offset,
-            first,
-            matrix,
-            lower,
-            upper,
-        )
-    return matrix, lower, upper
+        _substitute(part[1:], FIRST_COLUMNS[part.variable], (space.linear, space.offset), first, result)
+    return result
 
 
 @compiled_entry
 def _substitute(
-    rows: Array,
-    row_lower: Array,
-    row_upper: Array,
+    part: tuple[Array, Array, Array],
     first_column: int,
-    linear: Array,
-    offset: Array,
+    substitution: tuple[Array, Array],
     first: int,
-    matrix: Array,
-    lower: Array,
-    upper: Array,
+    result: tuple[Array, Array, Array],
 ) -> None:
-    """Write lower <= matrix x <= upper from row ``first`` on, for row_lower <= rows y <= row_upper.
+    """Write lower <= matrix x <= upper from row ``first`` of ``result`` on, for the rows of ``part`` in y.
 
     Args:
-        rows: of a part of y, (m, n); most entries are zero.
-        row_lower, row_upper: (m,).
+        part: matrix (m, n), most of whose entries are zero, lower and upper (m,) in a part of y.
         first_column: where this part stands in y = linear x + offset.
-        linear, offset: as in ``DecisionSpace``.
+        substitution: linear and offset, as in ``DecisionSpace``.
         first: row to write to.
-        matrix, lower, upper: of all tasks.
+        result: matrix, lower and upper of all tasks.
     """
+    rows, row_lower, row_upper = part
+    linear, offset = substitution
+    matrix, lower, upper = result
     for row in range(len(rows)):
         target = first + row
         matrix[target] = 0.0

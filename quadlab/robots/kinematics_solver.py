@@ -55,30 +55,24 @@ class KinematicsSolver:
 
     def to_pinocchio(self, state: RobotState) -> tuple[Array, Array]:
         """Return configuration q, (19,), and velocity v, (18,), in Pinocchio's order and conventions."""
-        q, v = empty_coordinates()
-        self._write_coordinates(state, q, v)
-        return q, v
+        coordinates = empty_coordinates()
+        self._write_coordinates(state, coordinates)
+        return coordinates
 
-    def _write_coordinates(self, state: RobotState, q: Array, v: Array) -> None:
+    def _write_coordinates(self, state: RobotState, coordinates: tuple[Array, Array]) -> None:
         write_coordinates(
-            state.position_base_in_world,
-            state.quat_wxyz,
-            state.joint_positions,
-            state.linear_velocity_base_in_world,
-            state.angular_velocity_base_in_base,
-            state.joint_velocities,
+            (state.position_base_in_world, state.quat_wxyz, state.joint_positions),
+            (state.linear_velocity_base_in_world, state.angular_velocity_base_in_base, state.joint_velocities),
             state.rotation_base_to_world,
-            self._indexed.position_indices,
-            self._indexed.velocity_indices,
-            q,
-            v,
+            (self._indexed.position_indices, self._indexed.velocity_indices),
+            coordinates,
         )
 
     def solve(self, state: RobotState) -> Kinematics:
         """Compute kinematics and dynamics at ``state``."""
         rotation, position = state.rotation_base_to_world, state.position_base_in_world
         q, v = self._coordinates
-        self._write_coordinates(state, q, v)
+        self._write_coordinates(state, self._coordinates)
         pin.computeAllTerms(self._model, self._data, q, v)
         pin.updateFramePlacements(self._model, self._data)
         dynamics, com, base, feet = terms = empty_terms()
@@ -112,7 +106,7 @@ class KinematicsSolver:
     def points(self, state: RobotState) -> MotionPoints:
         """Compute positions and velocities of centre of mass and feet at ``state``."""
         q, v = self._coordinates
-        self._write_coordinates(state, q, v)
+        self._write_coordinates(state, self._coordinates)
         pin.centerOfMass(self._model, self._data, q, v)
         pin.computeJointJacobians(self._model, self._data)
         pin.updateFramePlacements(self._model, self._data)

@@ -51,19 +51,25 @@ def add_product(matrix: Array, vector: Array, result: Array) -> None:
 
 @compiled_entry
 def write_coordinates(
-    position: Array,
-    quat_wxyz: Array,
-    joints: Array,
-    linear_in_world: Array,
-    angular_in_base: Array,
-    joint_velocities: Array,
+    pose: tuple[Array, Array, Array],
+    velocities: tuple[Array, Array, Array],
     rotation: Array,
-    position_indices: IndexArray,
-    velocity_indices: IndexArray,
-    q: Array,
-    v: Array,
+    indices: tuple[IndexArray, IndexArray],
+    coordinates: tuple[Array, Array],
 ) -> None:
-    """Write q (19,) and v (18,) in Pinocchio's order; arguments as in ``RobotState`` and ``PinocchioModel``."""
+    """Write q (19,) and v (18,) in Pinocchio's order.
+
+    Args:
+        pose: position, quaternion wxyz and joint positions of a ``RobotState``.
+        velocities: of the base, linear in world and angular in base axes, and of the joints.
+        rotation: base to world, (3, 3).
+        indices: of the joints in q and in v, (12,) each.
+        coordinates: q and v.
+    """
+    position, quat_wxyz, joints = pose
+    linear_in_world, angular_in_base, joint_velocities = velocities
+    position_indices, velocity_indices = indices
+    q, v = coordinates
     v[:] = 0.0
     q[:3] = position
     q[3:6] = quat_wxyz[1:]
