@@ -51,8 +51,10 @@ def at_most(text: str, rows: pd.DataFrame, column: str, limit: float, unit: str,
 
 
 def variant_claims(rows: pd.DataFrame, column: str, names: dict[str, str]) -> list[Claim]:
-    """Return one claim a variant: what became of the trials in which ``column`` has that level; no paper says it."""
+    """Return one claim a variant of the study: what became of the trials with that level of ``column``; no paper says it."""
+    tried = set(rows[column])
     return [
         Claim(f"stays up {text}", "not printed", share(rows[rows[column] == level]), Verdict.NEW)
         for level, text in names.items()
+        if level in tried
     ]
