@@ -53,7 +53,7 @@ format: setup
 demo: setup system
 	$(BIN)/python experiments/demo.py --tag $(TAG)
 
-## Run every acceptance trial and compare with its limits.
+## Run every acceptance trial: the table in results/acceptance/ says how each ended.
 acceptance: setup
 	$(BIN)/python experiments/run_study.py acceptance
 

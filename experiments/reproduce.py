@@ -2,7 +2,7 @@
 
     python experiments/reproduce.py paper=all [jobs=2] [artefact=figure6]
 
-``paper`` is gehring2017, winkler2017, bellicoso2016 or all. What was done before is not run again.
+``paper`` is gehring2017, winkler2017, bellicoso2016, comparison or all. What was done before is not run again.
 """
 
 import sys

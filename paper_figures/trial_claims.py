@@ -51,7 +51,7 @@ def at_most(text: str, rows: pd.DataFrame, column: str, limit: float, unit: str,
 
 
 def variant_claims(rows: pd.DataFrame, column: str, names: dict[str, str]) -> list[Claim]:
-    """Return one claim a variant of the study: what became of the trials with that level of ``column``; no paper says it."""
+    """Return one claim a variant that was tried, a level of ``column``: what became of it; no paper says it."""
     tried = set(rows[column])
     return [
         Claim(f"stays up {text}", "not printed", share(rows[rows[column] == level]), Verdict.NEW)

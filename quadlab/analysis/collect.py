@@ -16,7 +16,6 @@ INDEX = "trial_id"
 PARQUET, CSV = "trials.parquet", "trials.csv"
 COMMIT = "commit"
 _NAMED_PARTS = ("robot", "gait", "planner", "controller", "scenario")
-_NO_OUTCOME = {EntryState.RUNNING, EntryState.UNFINISHED}
 _TYPES = {int: "Int64", float: "Float64", bool: "boolean", str: "string"}
 
 

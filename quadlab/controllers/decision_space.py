@@ -21,6 +21,12 @@ FIRST_COLUMNS = {
 """Where each variable begins in y = [u_dot (18), tau (12), lambda (3 n)], n standing legs."""
 
 
+def block_size(variable: Variable, unknowns: int) -> int:
+    """Return how many of the ``unknowns`` of y belong to ``variable``."""
+    forces = unknowns - VELOCITY_SIZE - JOINT_COUNT
+    return {Variable.ACCELERATION: VELOCITY_SIZE, Variable.TORQUE: JOINT_COUNT, Variable.FORCE: forces}[variable]
+
+
 class DecisionSpace(NamedTuple):
     """The affine map y = linear @ x + offset from the decision variables x to y = [u_dot, tau, lambda].
 

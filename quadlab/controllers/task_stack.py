@@ -3,18 +3,22 @@
 from collections.abc import Sequence
 from functools import cache
 from itertools import accumulate
+from typing import TypeAlias
 
 import numpy as np
 
-from quadlab.controllers.decision_space import FIRST_COLUMNS, DecisionSpace
+from quadlab.controllers.decision_space import FIRST_COLUMNS, DecisionSpace, block_size
 from quadlab.controllers.hierarchy import Level, StackedLevels, stack
 from quadlab.controllers.hierarchy.level import IndexArray
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.task_levels import LevelConfig, build_task
-from quadlab.controllers.tasks.task import TaskRows
+from quadlab.controllers.tasks.task import TaskRows, Variable
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry
 from quadlab.robots.kinematics import Kinematics
+
+TaskShapes: TypeAlias = tuple[Variable, tuple[int, ...], tuple[int, ...], tuple[int, ...]]
+_AXES = 2
 
 
 class TaskStack:
@@ -28,15 +32,31 @@ class TaskStack:
     def assemble(self, kinematics: Kinematics, reference: ControlReference, space: DecisionSpace) -> StackedLevels:
         """Return all rows of a tick, highest priority first, below the constraints of the decision space."""
         rows = [task.rows(kinematics, reference) for task in self._tasks]
-        starts = row_starts(tuple([len(part.lower) for part in rows]))
+        shapes = tuple([(part[0], part[1].shape, part[2].shape, part[3].shape) for part in rows])
+        starts = row_starts(shapes, len(space.offset))
         levels = StackedLevels(*in_decision_variables(rows, starts, space), level_breaks(starts, self._level_ends))
         return _below(space.constraints, levels) if space.constraints else levels
 
 
 @cache
-def row_starts(sizes: tuple[int, ...]) -> tuple[int, ...]:
-    """Return where the rows of each task begin, and their number at the end, for tasks of ``sizes`` rows."""
-    return (0, *accumulate(sizes))
+def row_starts(tasks: tuple[TaskShapes, ...], unknowns: int) -> tuple[int, ...]:
+    """Return where the rows of each task begin, and their number at the end.
+
+    Args:
+        tasks: variable and shapes of matrix, lower and upper of each task.
+        unknowns: size of y in ``DecisionSpace``.
+
+    Raises:
+        ValueError: if shapes do not fit each other or the variable; compiled code that reads them would not say so.
+    """
+    for number, (variable, matrix, lower, upper) in enumerate(tasks):
+        columns = block_size(variable, unknowns)
+        if len(matrix) != _AXES or matrix[1] != columns or lower != matrix[:1] or upper != lower:
+            raise ValueError(
+                f"task {number} of the stack, in {variable}: matrix {matrix}, lower {lower}, upper {upper}; "
+                f"expected (m, {columns}), (m,), (m,)"
+            )
+    return (0, *accumulate(matrix[0] for _, matrix, _, _ in tasks))
 
 
 @cache

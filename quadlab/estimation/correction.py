@@ -3,8 +3,10 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
 
 from quadlab.configuration import NonNegative, Positive, StrictModel
 from quadlab.estimation.error_state import (
@@ -43,8 +45,8 @@ class LegMeasurementConfig(StrictModel):
     encoder_rad: NonNegative
     kinematics_m: Positive
     gate: Positive
-    blind_ticks: int
-    patience_ticks: int
+    blind_ticks: Annotated[int, Field(ge=0)]
+    patience_ticks: Annotated[int, Field(ge=0)]
 
 
 @dataclass(frozen=True)

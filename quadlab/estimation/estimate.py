@@ -17,12 +17,13 @@ class FilterReport:
     Attributes:
         accelerometer_bias, gyro_bias: estimated, (3,) in [m/s^2] and [rad/s].
         contacts: feet that are in contact, (4,).
-        used: feet whose position was used as a measurement, (4,); of those in contact the others were outliers.
+        used: feet whose position was used as a measurement, (4,); of those in contact the others were outliers, or
+            have just landed.
         position_std, velocity_std: standard deviations along the world's axes, (3,) in [m] and [m/s].
         orientation_std: of the rotation about the world's axes, (3,) in [rad].
-        innovation_squared: normalised innovation squared of the feet in contact, summed over feet; for a consistent
-            filter chi-square distributed with ``innovation_size`` degrees of freedom.
-        innovation_size: 3 for each foot in contact.
+        innovation_squared: normalised innovation squared of the used feet, summed over feet; for a consistent filter
+            chi-square distributed with ``innovation_size`` degrees of freedom.
+        innovation_size: 3 for each used foot.
         outliers: measurements of feet refused so far.
         update_us: computing time of the tick in [us].
     """
@@ -58,7 +59,7 @@ ReadSensors: TypeAlias = Callable[[], SensorReading]
 
 
 class Estimator(Protocol):
-    """From sensor readings to states, one a control tick."""
+    """From sensor readings to states, one a control tick; made with (config, robot, period in [s], seed)."""
 
     sensors: SensorConfig | None
     """How good the sensors are that it is given; None for sensors without errors."""

@@ -11,6 +11,7 @@ from quadlab.gaits.schedule import BoolArray, ContactSchedule
 from quadlab.robots.legs import LEGS
 
 STANCE, SWING = "#", "."
+_ROUNDING = 1e-9  # of a number of strides
 
 
 class CycleConfig(StrictModel):
@@ -69,20 +70,23 @@ def stride_counts(gait: GaitConfig, duration_s: float) -> list[int]:
     """Return how often each cycle runs in a trial of ``duration_s`` in [s].
 
     Raises:
-        ConfigurationError: if the duration does not hold one stride of the last cycle.
+        ConfigurationError: if the duration does not hold all strides, and one of the last cycle.
     """
     last = gait.cycles[-1]
-    counts = [cycle.strides or 0 for cycle in gait.cycles]
-    if last.strides is None:
-        fixed = gait.initial_stance_s + gait.final_stance_s
-        fixed += sum((cycle.strides or 0) * cycle.stride_duration_s for cycle in gait.cycles[:-1])
-        counts[-1] = int((duration_s - fixed) / last.stride_duration_s + 1e-9)
-        if counts[-1] < 1:
-            raise ConfigurationError(
-                f"duration_s: {duration_s:g} s is too short for gait '{gait.name}'; "
-                f"one stride needs {fixed + last.stride_duration_s:g} s"
-            )
-    return counts
+    counts = [cycle.strides or 1 for cycle in gait.cycles]
+    strides_s = sum(count * cycle.stride_duration_s for count, cycle in zip(counts, gait.cycles, strict=True))
+    shortest_s = gait.initial_stance_s + strides_s + gait.final_stance_s
+    to_spare = (duration_s - shortest_s) / last.stride_duration_s + _ROUNDING
+    if to_spare < 0.0:
+        raise ConfigurationError(
+            f"duration_s: {duration_s:g} s is too short for gait '{gait.name}'; "
+            f"{_strides(sum(counts))} {shortest_s:g} s with the stances before and after"
+        )
+    return counts if last.strides else [*counts[:-1], 1 + int(to_spare)]
+
+
+def _strides(count: int) -> str:
+    return "one stride needs" if count == 1 else f"its {count} strides need"
 
 
 def stride_times(gait: GaitConfig, duration_s: float) -> list[float]:
@@ -101,7 +105,7 @@ def contact_schedule(gait: GaitConfig, duration_s: float) -> ContactSchedule:
         duration_s: length of the schedule in [s]; what the strides leave over is stance at the end.
 
     Raises:
-        ConfigurationError: if the duration does not hold one stride.
+        ConfigurationError: if the duration does not hold the strides, see ``stride_counts``.
     """
     standing = np.ones((1, len(LEGS)), dtype=bool)
     rows, durations = [standing], [gait.initial_stance_s]

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, Protocol
 
+from quadlab.errors import PlanningProblemError
 from quadlab.planners.plan import MotionPlan
 from quadlab.planners.problem import PlanningProblem
 
@@ -50,3 +51,11 @@ class Planner(Protocol):
     def solve(self, transcription: Any) -> PlanningOutcome:
         """Solve a transcription, check the plan and return the outcome."""
         ...
+
+
+def solved(planner: Planner, problem: PlanningProblem) -> PlanningOutcome:
+    """Build and solve; a problem that is malformed, which no plan can begin from, has an answer, too."""
+    try:
+        return planner.solve(planner.build(problem))
+    except PlanningProblemError as error:
+        return PlanningOutcome(PlanningStatus.INFEASIBLE, str(error), None)

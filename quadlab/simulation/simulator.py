@@ -97,7 +97,7 @@ class Simulator:
 
     @property
     def applied_torques(self) -> Array:
-        """Torques of the last command after clipping to the limits, (12,) in [N m]."""
+        """Torques within the limits at the last physics step, (12,) in [N m]; drives change them in every step."""
         return np.asarray(self._arrays.ctrl[self._map.ctrl])
 
     def imu(self) -> ImuSample:

@@ -1,9 +1,9 @@
 """What a study is: the file ``conf/study/<name>.yaml``."""
 
-from typing import Annotated, TypeAlias
+from typing import Annotated, Self, TypeAlias
 
 import yaml
-from pydantic import Field, ValidationError
+from pydantic import Field, ValidationError, model_validator
 
 from quadlab.configuration import Positive, StrictModel
 from quadlab.errors import ConfigurationError
@@ -35,6 +35,12 @@ class SearchConfig(StrictModel):
     confirm: Annotated[int, Field(ge=0)]
     factor: float = 1.0
     name: str | None = None
+
+    @model_validator(mode="after")
+    def _grid_has_values(self) -> Self:
+        if self.highest < self.lowest:
+            raise ValueError(f"highest: {self.highest:g} is below lowest, {self.lowest:g}")
+        return self
 
     @property
     def label(self) -> str:

@@ -8,6 +8,8 @@ from quadlab.studies.files import StudyFolder, configuration_hash, read_row, tra
 from quadlab.studies.rows import DIRECTORY, Row
 from quadlab.trials.result import RESULT_FILE, TrialStatus
 
+_WITH_PLAN = ("solved", *set(TrialStatus) - {TrialStatus.PLANNING_FAILED, TrialStatus.ERROR})
+
 
 @dataclass(frozen=True)
 class Work:
@@ -39,13 +41,20 @@ class Work:
         return [name for name, where in self.study.plans.items() if self.condition.matches(where)]
 
 
+def has_plan(row: Row) -> bool:
+    """Whether the job came so far that there are curves and a plan to keep."""
+    return row["status"] in _WITH_PLAN
+
+
 def remembered(work: Work) -> Row | None:
     """Return the row of a job that was done before and whose files are all there, else None."""
     row = read_row(work.folder, work.condition.identifier, work.settings)
     if row is None or row["status"] == TrialStatus.ERROR:
         return None
-    needed = [path for trace in work.traces for path in trace_files(trace, work.folder)]
-    needed += [work.folder.plan(name) for name in work.plans]
+    needed = []
+    if has_plan(row):
+        needed += [path for trace in work.traces for path in trace_files(trace, work.folder)]
+        needed += [work.folder.plan(name) for name in work.plans]
     if work.study.job == "trial":
         needed.append(work.folder.path / row[DIRECTORY] / RESULT_FILE)
     return row if all(path.is_file() for path in needed) else None

@@ -15,7 +15,7 @@ from quadlab.studies.files import write_row
 from quadlab.studies.jobs import job_named
 from quadlab.studies.rows import DIRECTORY, FAILURE, Row
 from quadlab.studies.traces import write_trace
-from quadlab.studies.work import Work
+from quadlab.studies.work import Work, has_plan
 from quadlab.sweeps.warm_up import warm_up, warm_up_trials
 from quadlab.trials.compose import compose_trial
 from quadlab.trials.plan_job import PLAN_FILE
@@ -44,8 +44,8 @@ def do_work(work: Work) -> Row:
 
 
 def _keep(work: Work, row: Row) -> None:
-    """Write the curves and plans that the study asks for of this job."""
-    if DIRECTORY not in row:
+    """Write the curves and plans that the study asks for of this job, if it came so far."""
+    if DIRECTORY not in row or not has_plan(row):
         return
     directory: Path = work.folder.path / row[DIRECTORY]
     for trace in work.traces:

@@ -1,4 +1,4 @@
-"""From YAML files and command-line overrides to a validated trial; nothing else in quadlab sees omegaconf."""
+"""From YAML files and command-line overrides to a validated trial: what comes after sees no omegaconf."""
 
 from collections.abc import Sequence
 from typing import Any, TypeVar

@@ -9,7 +9,7 @@ from types import TracebackType
 import yaml
 from threadpoolctl import threadpool_limits
 
-from quadlab.errors import QuadlabError
+from quadlab.errors import ConfigurationError, MissingDependencyError
 from quadlab.trials.config import RunOptions, TrialConfig
 from quadlab.trials.files import write_json, write_text
 from quadlab.trials.identity import trial_id
@@ -43,8 +43,8 @@ class JobOutcome:
 class ErrorRecord:
     """A context in which an unexpected exception becomes ``error.json`` instead of ending the program.
 
-    This is the border of one trial: a sweep goes on with the next one. Mistakes of the user (QuadlabError) and
-    interrupts pass through.
+    This is the border of one trial: a sweep goes on with the next one. A configuration that is wrong, a package that is
+    missing and interrupts pass through.
 
     Attributes:
         failure: one line about the exception that was recorded.
@@ -61,7 +61,7 @@ class ErrorRecord:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> bool:
-        if not isinstance(error, Exception) or isinstance(error, QuadlabError):
+        if not isinstance(error, Exception) or isinstance(error, (ConfigurationError, MissingDependencyError)):
             return False
         self.failure = f"{type(error).__name__}: {error} (traceback in {self._path})"
         lines = traceback.format_exception(kind, error, trace)

@@ -24,6 +24,7 @@ MANIFEST_SCHEMA_VERSION = 1
 _BLAS_FIELDS = ("internal_api", "version", "num_threads", "architecture", "threading_layer", "prefix")
 _CPU_FLAGS = frozenset({"sse4_2", "avx", "avx2", "fma", "avx512f", "avx512_vnni"})
 """Instruction sets that change the order of floating-point sums."""
+_CODE = ("--", ".", ":(exclude)results", *(f":(exclude)paper_figures/**/*.{kind}" for kind in ("csv", "pdf", "png")))
 _ENVIRONMENT = ("MUJOCO_GL", "PYTHONHASHSEED", "OPENBLAS_CORETYPE", "MKL_CBWR")
 
 
@@ -58,7 +59,9 @@ def sha256(content: bytes) -> str:
 
 
 def git_state(root: Path | None) -> dict[str, Any] | None:
-    """Return commit, whether the tree differs from it, hash of the difference and untracked files.
+    """Return commit, whether the code differs from it, hash of the difference and untracked files.
+
+    Results and the figures that are drawn from them are no code: they change while they are made.
 
     Args:
         root: a source tree, or None for an installed wheel.
@@ -69,8 +72,8 @@ def git_state(root: Path | None) -> dict[str, Any] | None:
     head = _git(root, "rev-parse", "HEAD")
     if head is None:
         return None
-    difference = _git(root, "diff", "HEAD", "--binary") or b""
-    status = (_git(root, "status", "--porcelain=v1") or b"").decode()
+    difference = _git(root, "diff", "HEAD", "--binary", *_CODE) or b""
+    status = (_git(root, "status", "--porcelain=v1", *_CODE) or b"").decode()
     return {
         "commit": head.decode().strip(),
         "dirty": bool(status.strip()),

@@ -66,7 +66,7 @@ class TrialMetrics:
 
         Args:
             state: true state at its start.
-            command: torques as applied (within the limits).
+            command: torques as applied (within the limits), with drives those of the tick's last physics step.
             telemetry: of the controller, its measured quantities replaced by the true ones.
             physics_state: everything the simulator integrates; goes into the hash.
         """

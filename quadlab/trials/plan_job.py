@@ -7,7 +7,7 @@ import yaml
 from threadpoolctl import threadpool_limits
 
 from quadlab.planners.plan_io import save_plan
-from quadlab.planners.planner import PlanningOutcome
+from quadlab.planners.planner import PlanningOutcome, solved
 from quadlab.robots.model import load_robot
 from quadlab.simulation.simulator import Simulator
 from quadlab.trials.config import RunOptions, TrialConfig
@@ -53,7 +53,7 @@ def run_plan_job(config: TrialConfig, options: RunOptions) -> PlanJobOutcome:
         state = Observer(config, robot, simulator).observe(simulator.reset()).state
         planner = build_planner(config)
         planner.prepare()
-        outcome = planner.solve(planner.build(planning_problem(config, robot, state)))
+        outcome = solved(planner, planning_problem(config, robot, state))
     write_text(directory / CONFIG_FILE, yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False))
     (directory / PLAN_FILE).unlink(missing_ok=True)
     if outcome.plan is not None:

@@ -12,6 +12,7 @@ from quadlab.controllers.resolver import Resolution
 from quadlab.controllers.tracking_controller import TrackingController
 from quadlab.errors import QuadlabError
 from quadlab.geometry.rotations import Array
+from quadlab.planners.planner import solved
 from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.model import load_robot
 from quadlab.simulation.simulator import Simulator
@@ -59,7 +60,7 @@ def record_hierarchies(config: TrialConfig, stride: int, handler: HierarchyHandl
     robot = load_robot(config.robot)
     simulator = Simulator(robot, config.scenario, config.simulation, config.seed)
     planner = build_planner(config)
-    outcome = planner.solve(planner.build(planning_problem(config, robot, simulator.read())))
+    outcome = solved(planner, planning_problem(config, robot, simulator.read()))
     if outcome.plan is None:
         raise QuadlabError(f"no plan: {outcome.status}: {outcome.reason}")
     resolver: Any = part_of("controller", config.controller)(config.controller)

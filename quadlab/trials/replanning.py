@@ -7,10 +7,9 @@ import numpy as np
 from quadlab.configuration import NonNegative, Positive, StrictModel
 from quadlab.controllers.controller import Controller
 from quadlab.controllers.tracking.handover import PlanProgress
-from quadlab.errors import PlanningProblemError
 from quadlab.gaits.schedule import BoolArray, ContactSchedule
 from quadlab.geometry.rotations import Array, rotation_2d, yaw_of
-from quadlab.planners.planner import Planner, PlanningOutcome, PlanningStatus
+from quadlab.planners.planner import Planner, solved
 from quadlab.planners.problem import PlanningProblem, PlanStart, Waypoints
 from quadlab.robots.model import RobotModel
 from quadlab.robots.state import RobotState
@@ -72,7 +71,7 @@ class Replanner:
             return None
         self._next_s = state.time_s + (self.config.period_s or 0.0)
         self.attempts += 1
-        outcome = self._outcome(progress, state)
+        outcome = solved(self.planner, remaining_problem(self.problem, progress, self.robot, state))
         if outcome.plan is None:
             self.failures += 1
             return f"replanning failed, the old plan holds: {outcome.status}: {outcome.reason}"
@@ -102,13 +101,6 @@ class Replanner:
         shortest_s = self.config.shortest_phase_s - _TIME_TOLERANCE
         far_enough = len(following) > 0 and following[0] - plan_time_s >= shortest_s
         return bool(far_enough) and plan_time_s < last_touch_down
-
-    def _outcome(self, progress: PlanProgress, state: RobotState) -> PlanningOutcome:
-        """Return the planner's answer; a state that no plan can begin from is one, too."""
-        try:
-            return self.planner.solve(self.planner.build(remaining_problem(self.problem, progress, self.robot, state)))
-        except PlanningProblemError as error:
-            return PlanningOutcome(PlanningStatus.INFEASIBLE, str(error), None)
 
 
 def remaining_problem(

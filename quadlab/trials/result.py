@@ -66,7 +66,7 @@ class TrialResult(StrictModel):
         estimate_outliers: measurements of standing feet that the filter refused.
         estimate_update_median_us: computing time of an update in [us].
         real_time_factor: simulated over wall time of the whole loop.
-        state_sha256: hash of the final state, equal for two runs exactly if they are identical.
+        state_sha256: hash of the physical state after every tick, equal for two runs exactly if they are identical.
     """
 
     schema_version: Literal[1] = SCHEMA_VERSION

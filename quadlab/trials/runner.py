@@ -11,6 +11,7 @@ import yaml
 from quadlab.controllers.controller import Controller
 from quadlab.controllers.tracking_controller import build_controller
 from quadlab.planners.plan import MotionPlan
+from quadlab.planners.planner import solved
 from quadlab.robots.model import RobotModel, load_robot
 from quadlab.robots.state import JointCommand, RobotState
 from quadlab.simulation.geoms import describe_geoms
@@ -56,7 +57,7 @@ def run_trial(config: TrialConfig, directory: Path, progress: TrialProgress) -> 
     planner = build_planner(config)
     planner.prepare()
     problem = planning_problem(config, robot, observer.observe(simulator.reset()).state)
-    outcome = planner.solve(planner.build(problem))
+    outcome = solved(planner, problem)
     if outcome.plan is None:
         return _result(config, Ending(TrialStatus.PLANNING_FAILED, f"{outcome.status}: {outcome.reason}"), {})
     controller = build_controller(config.controller, robot)

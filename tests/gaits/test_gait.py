@@ -98,6 +98,13 @@ def test_stride_that_exactly_fits_counts() -> None:
     assert stride_counts(config, 0.6 + 3 * 0.8 + 0.6) == [3]
 
 
+def test_trial_too_short_for_a_fixed_number_of_strides_is_a_clear_error() -> None:
+    config = GaitConfig(name="trot", initial_stance_s=0.6, final_stance_s=0.6, cycles=(cycle(strides=4),))
+    assert stride_counts(config, 4.4) == [4]
+    with pytest.raises(ConfigurationError, match=r"4 s is too short for gait 'trot'; its 4 strides need 4\.4 s"):
+        stride_counts(config, 4.0)
+
+
 def test_too_short_a_trial_is_a_clear_error() -> None:
     with pytest.raises(ConfigurationError, match="duration_s: 1 s is too short for gait 'trot'; one stride needs 2 s"):
         contact_schedule(gait("trot"), 1.0)

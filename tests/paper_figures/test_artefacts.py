@@ -58,6 +58,7 @@ def test_claims_say_something(script: ArtefactScript) -> None:
         assert claim.paper
         assert claim.ours
         assert "nan" not in claim.ours
+        assert not claim.ours.startswith("0 of 0"), claim.text
 
 
 @each_script

@@ -1,6 +1,7 @@
 """A study is the product of its factors, block by block, and every file of conf/study is one that can be run."""
 
 import pytest
+from pydantic import ValidationError
 
 import quadlab.studies.worker  # noqa: F401 - knows the jobs of all studies
 from quadlab.errors import ConfigurationError
@@ -87,3 +88,8 @@ def _covering(found: list[Condition]) -> list[Condition]:
             seen |= levels
             chosen.append(condition)
     return chosen
+
+
+def test_search_without_a_value_is_refused() -> None:
+    with pytest.raises(ValidationError, match="highest: 2 is below lowest, 3"):
+        SearchConfig(key="height_m", lowest=3.0, step=0.5, highest=2.0, confirm=0)

@@ -77,3 +77,14 @@ def test_wrong_configuration_is_a_row_and_counted(study_folder: Path, tmp_path: 
     table = pd.read_csv(tmp_path / "results" / "standing" / "table.csv")
     assert list(table["status"]) == ["completed", "error"]
     assert "gallop" in table["status_reason"][1]
+
+
+def test_plan_that_fails_is_a_row_without_curves(study_folder: Path, tmp_path: Path) -> None:
+    """The reason stays in the table and a second run does nothing."""
+    block = {"overrides": ["gait=stand", "command.x_m=5", "duration_s=1.2"], "factors": {"seed": [0]}}
+    (study_folder / "standing.yaml").write_text(yaml.safe_dump({**STUDY, "blocks": [block]}))
+    assert "planning_failed" in _run(tmp_path / "results")
+    table = pd.read_csv(tmp_path / "results" / "standing" / "table.csv")
+    assert list(table["status"]) == ["planning_failed"]
+    assert table["status_reason"][0].startswith("infeasible")
+    assert _run(tmp_path / "results") == ""

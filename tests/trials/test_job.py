@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from quadlab.errors import RobotDescriptionError
+from quadlab.errors import QuadlabError, RobotDescriptionError
 from quadlab.trials import job as job_module
 from quadlab.trials.compose import compose_document, split_document
 from quadlab.trials.config import TrialConfig
@@ -91,6 +91,18 @@ def test_exception_becomes_error_json_and_the_next_run_tries_again(
     monkeypatch.setattr(job_module, "run_trial", lambda config, *_: _result_of(config))
     assert _run(tmp_path, "seed=13").failure is None
     assert not (outcome.directory / "error.json").exists()
+
+
+def test_error_within_a_trial_is_no_mistake_in_its_configuration(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stop(*_: object) -> TrialResult:
+        raise QuadlabError("torque command is not finite: LF_HAA")
+
+    monkeypatch.setattr(job_module, "run_trial", stop)
+    outcome = _run(tmp_path)
+    assert str(outcome.failure).startswith("QuadlabError: torque command is not finite: LF_HAA (traceback in ")
+    assert (outcome.directory / "error.json").is_file()
 
 
 def test_forced_run_that_fails_leaves_no_old_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

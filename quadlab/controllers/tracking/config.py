@@ -1,8 +1,14 @@
-"""Settings of everything between plan and tasks; lengths are shares of the robot's standing base height."""
+"""Settings of all between plan and tasks; lengths without a unit are shares of the robot's standing base height."""
 
 from enum import StrEnum
 
+from pydantic import Field
+
 from quadlab.configuration import Fraction, NonNegative, Positive, StrictModel
+from quadlab.robots.legs import LEG_COUNT
+
+SHORTEST_SWING_S = 0.05
+"""A swing that begins late still takes so long, in [s]."""
 
 
 class Alignment(StrEnum):
@@ -42,7 +48,7 @@ class ContactConfig(StrictModel):
         capture_margin_m: a leg is spared only while the capture point is so far inside the support of the legs that
             stand by plan, or so near the planned one, in [m]: before, its lift-off waits; after, its swing hastens.
             None never looks at it.
-        hastened_swing_s: duration of a swing at whose pace a hastened one ends in [s].
+        hastened_swing_s: duration of a swing at whose pace a hastened one ends, at least ``SHORTEST_SWING_S``, in [s].
         minimum_stance_legs: a leg lifts off only if so many others stand, and all that shall stand by plan; one that
             lost its contact searches only if so many others stand.
         lost_contact_s: time without force after which a standing leg searches the ground in [s].
@@ -57,8 +63,8 @@ class ContactConfig(StrictModel):
     expected_touch_down: Fraction
     latest_lift_off: Fraction
     capture_margin_m: Positive | None
-    hastened_swing_s: Positive
-    minimum_stance_legs: int
+    hastened_swing_s: float = Field(ge=SHORTEST_SWING_S)
+    minimum_stance_legs: int = Field(ge=0, lt=LEG_COUNT)
     lost_contact_s: Positive
     settling_s: NonNegative
     search_speed_mps: Positive

@@ -7,13 +7,10 @@ import numpy as np
 
 from quadlab.controllers.telemetry import LegMode
 from quadlab.controllers.tracking.balance import AskForBalance
-from quadlab.controllers.tracking.config import ContactConfig
+from quadlab.controllers.tracking.config import SHORTEST_SWING_S, ContactConfig
 from quadlab.gaits.schedule import BoolArray, ContactSchedule, Swing
 from quadlab.geometry.rotations import Array
 from quadlab.robots.legs import LEG_COUNT, LEGS
-
-SHORTEST_SWING_S = 0.05
-"""A swing that begins late still takes so long, in [s]."""
 
 _EARLY = 0.88  # share of the swing before which a touch-down is reported as early
 
@@ -27,7 +24,9 @@ class LegContact:
         foothold: index of the planned foothold that it stands on or left last.
         stance_point: where it touched down last, frozen there, (3,) in [m].
         lift_off_point: where its swing (or search) began, (3,) in [m].
-        lift_off_s, touch_down_due_s: plan times of the swing under way in [s].
+        lift_off_s, touch_down_due_s: plan times of the swing under way in [s]; a hastened swing has those that it would
+            have had, had it always had its present pace.
+        hastened: whether the swing under way ends at the pace of a fast one.
         touch_down_s: plan time of the last touch-down in [s].
         search_depth: how far a searching foot has been sent down in [m].
         completes_swing: whether the search ends a swing (late) or replaces a lost contact.
@@ -40,6 +39,7 @@ class LegContact:
     foothold: int = 0
     lift_off_s: float = 0.0
     touch_down_due_s: float = 0.0
+    hastened: bool = False
     touch_down_s: float = -np.inf
     search_depth: float = 0.0
     completes_swing: bool = False
@@ -58,6 +58,7 @@ class LegContact:
         """End the swing under way at the pace of one that takes ``duration_s`` in [s]; its phase does not jump."""
         self.lift_off_s = plan_time_s - self.swing_phase(plan_time_s) * duration_s
         self.touch_down_due_s = self.lift_off_s + duration_s
+        self.hastened = True
 
 
 @dataclass
@@ -65,6 +66,13 @@ class ContactMachine:
     """Follows the schedule leg by leg; early and late touch-down, lost contact, lift-off that must wait.
 
     A leg that the balance cannot spare stays on the ground, or comes back to it at the pace of a fast swing.
+
+    Attributes:
+        config: thresholds.
+        schedule: of the plan.
+        touch_down_force: normal force that means contact in [N].
+        legs: what is remembered of each.
+        events: of the last tick, one line each.
     """
 
     config: ContactConfig
@@ -219,7 +227,8 @@ class ContactMachine:
 
     def _hasten_if_needed(self, leg: int, time_s: float) -> None:
         state, duration_s = self.legs[leg], self.config.hastened_swing_s
-        if state.swing_duration_s <= duration_s or state.swing_phase(time_s) >= 1.0 or self._can_spare(leg, time_s):
+        slow = state.swing_duration_s > duration_s and not state.hastened
+        if not slow or state.swing_phase(time_s) >= 1.0 or self._can_spare(leg, time_s):
             return
         self._note(leg, f"hastens at {state.swing_phase(time_s):.2f} of the swing")
         state.hasten(time_s, duration_s)
@@ -234,6 +243,7 @@ class ContactMachine:
         state.mode = LegMode.SWING
         state.lift_off_point = foot
         state.lift_off_s = time_s
+        state.hastened = False
         state.touch_down_due_s = time_s + self.config.expected_touch_down * (due_s - time_s)
 
     def _touch_down(self, leg: int, time_s: float, foot: Array) -> None:

@@ -63,7 +63,7 @@ class FootPlanner:
         self,
         legs: list[LegContact],
         plan_time_s: float,
-        plan_rate: float,
+        clock: tuple[float, float],
         alignment: PlanarPose,
         com_velocity_reference: Array,
         kinematics: Kinematics,
@@ -74,7 +74,7 @@ class FootPlanner:
         Args:
             legs: contact states.
             plan_time_s: time in the plan in [s].
-            plan_rate: seconds of the plan in a second.
+            clock: seconds of the plan in a second, and the change of this rate in [1/s].
             alignment: of the footholds.
             com_velocity_reference: desired velocity in the world, (2,) in [m/s].
             kinematics: measured.
@@ -84,7 +84,7 @@ class FootPlanner:
             return _IDLE
         return _motions(
             np.array([self._flight(number, leg, plan_time_s) for number, leg in enumerate(legs)]),
-            plan_rate,
+            clock,
             tuple(alignment),
             (kinematics.com_position, kinematics.com_velocity, com_velocity_reference),
             kinematics.base_rotation,
@@ -109,7 +109,7 @@ def _compile_motions(fingerprint: int) -> Callable[..., Array]:
     @compiled_entry
     def motions(
         flights: Array,
-        plan_rate: float,
+        clock: tuple[float, float],
         alignment: tuple[Point, Point, float],
         com: tuple[Array, Array, Array],
         rotation: Array,
@@ -124,7 +124,7 @@ def _compile_motions(fingerprint: int) -> Callable[..., Array]:
         Args:
             flights: per leg mode, phase, duration in [s], search depth in [m], lift-off point (3) in [m] and planned
                 foothold (2) in [m] in the plan frame, (4, 9).
-            plan_rate: seconds of the plan in a second.
+            clock: seconds of the plan in a second, and the change of this rate in [1/s].
             alignment: point in the plan and in the world in [m], and yaw.
             com: position (3,), velocity (3,) and desired horizontal velocity (2,).
             rotation: base to world, (3, 3).
@@ -133,6 +133,7 @@ def _compile_motions(fingerprint: int) -> Callable[..., Array]:
             lengths, feedback, search_speed: of the planner.
         """
         _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
+        rate, rate_change = clock
         in_plan, in_world, yaw = alignment
         position, velocity, desired_velocity = com
         origin, height, slope = terrain
@@ -156,8 +157,8 @@ def _compile_motions(fingerprint: int) -> Callable[..., Array]:
             rise = slope[0] * (foothold[0] - origin[0]) + slope[1] * (foothold[1] - origin[1])
             foothold[2] = height + rise - depth  # a little below the ground
             motion = swing_motion(flights[leg, 4:7], foothold, apex, phase, duration_s)
-            motion[1] *= plan_rate
-            motion[2] *= plan_rate**2
+            motion[2] = rate**2 * motion[2] + rate_change * motion[1]
+            motion[1] *= rate
             result[:, leg] = motion
         return result
 

@@ -25,10 +25,11 @@ def normal_force_limit(
         weight: of the robot in [N].
         ramp_s: duration of each ramp in [s].
         since_touch_down_s: infinite for a leg that has not swung yet, in [s].
-        until_lift_off_s: infinite for a leg that will not swing any more, in [s].
+        until_lift_off_s: infinite for a leg that will not swing any more, negative for one that has to wait with it,
+            whose limit rises again since it is needed; in [s].
     """
     full = config.maximum_weight_share * weight
-    nearest = max(0.0, min(since_touch_down_s, until_lift_off_s))
+    nearest = max(0.0, min(since_touch_down_s, abs(until_lift_off_s)))
     if nearest >= ramp_s:
         return full
     least = config.initial_weight_share * weight

@@ -74,7 +74,7 @@ class MotionTracker:
         self._ramps_s = [ramp_duration(config.force_ramp, plan.schedule, leg) for leg in range(LEG_COUNT)]
         self._alignment = SmoothedAlignment(config.alignment.time_constant_s, identity_alignment())
         self._terrain = fit_plane(start.foot_positions, start.com_position[:2])
-        self._clock = PlanClock(math.sqrt(self._base_height / GRAVITY))
+        self._clock = PlanClock(math.sqrt(robot.nominal_com_height / GRAVITY))
         self._began_s = 0.0
         self._first_frame = np.zeros(3)
         self._feet = FootPlanner(
@@ -142,7 +142,7 @@ class MotionTracker:
         )
 
     def _balance(self, sample: PlanSample, kinematics: Kinematics) -> Balance:
-        alignment, height = self._alignment.current, self._base_height
+        alignment, height = self._alignment.current, self.robot.nominal_com_height
         position, velocity = alignment.position(sample.com_position[:2]), alignment.vector(sample.com_velocity[:2])
         return Balance(
             kinematics.foot_positions[:, :2],
@@ -187,8 +187,9 @@ class MotionTracker:
             footholds = torso
         else:
             footholds = self._raw_alignment(kind, sample, stance_points, kinematics)
+        clock = (rate, self._clock.rate_change)
         feet = self._feet.motions(
-            self._contacts.legs, plan_time_s, rate, footholds, com_velocity, kinematics, self._terrain
+            self._contacts.legs, plan_time_s, clock, footholds, com_velocity, kinematics, self._terrain
         )
         return ControlReference(
             com_position=com_position,
@@ -218,6 +219,8 @@ class MotionTracker:
 
     def _force_limit(self, leg: int, plan_time_s: float) -> float:
         state = self._contacts.legs[leg]
+        if state.mode is not LegMode.STANCE:
+            return 0.0
         swings = self.plan.schedule.swings[leg]
         lift_off_s = swings[state.foothold].start_s if state.foothold < len(swings) else math.inf
         since_s, until_s = plan_time_s - state.touch_down_s, lift_off_s - plan_time_s

@@ -154,8 +154,10 @@ class TrialRecorder:
         if kind is None:
             self.close()
         else:
-            self._write_waiting()
-            self._file.abandon()
+            try:
+                self._write_waiting()
+            finally:
+                self._file.abandon()
 
     def _record_push(self, tick: TickRecord) -> None:
         if bool(tick.pushes) == self._pushed:

@@ -18,6 +18,7 @@ from contact_scripts import (
 )
 
 from quadlab.controllers.tracking.balance import Balance
+from quadlab.gaits.schedule import ContactSchedule
 
 PLANNED = np.array([-0.1, -0.1])  # over RF, LH and RH
 HELD = Balance(FEET[:, :2], np.array([-0.05, -0.05]), PLANNED)
@@ -45,6 +46,19 @@ def test_swing_hastens_when_the_capture_point_leaves_the_others() -> None:
     assert script.changes_of(LF) == [(0.2, SWING), (0.395, STANCE)]
     assert machine.legs[LF].touch_down_due_s == pytest.approx(0.4)
     assert [text for _, text in script.events] == ["LF hastens at 0.33 of the swing"]
+
+
+@pytest.mark.parametrize("start_s", np.arange(0.2, 20.0, 0.7))
+def test_swing_hastens_once(start_s: float) -> None:
+    """Also where the difference of two times is rounded up."""
+    contacts = np.ones((3, 4), dtype=bool)
+    contacts[1, LF] = False
+    machine = machine_for(ContactSchedule(np.array([start_s, 1.0, 0.5]), contacts), hastened_swing_s=0.35)
+    script = Script(machine, TOWARDS_LF, time_s=start_s)
+    machine.legs[LF].mode = SWING
+    machine.legs[LF].lift_off_s, machine.legs[LF].touch_down_due_s = start_s, start_s + 1.0
+    script.run(start_s + 0.3, loaded_but(LF, 0.0, 99.0))
+    assert len(script.events) == 1
 
 
 def test_swing_as_short_as_a_hastened_one_is_left_alone() -> None:

@@ -40,8 +40,10 @@ def test_leg_that_neither_landed_nor_will_leave_has_the_full_limit() -> None:
     assert normal_force_limit(CONFIG, WEIGHT, RAMP_S, math.inf, math.inf) == 2.0 * WEIGHT
 
 
-def test_leg_past_its_lift_off_keeps_the_least_limit() -> None:
-    assert normal_force_limit(CONFIG, WEIGHT, RAMP_S, 1.0, -0.1) == pytest.approx(0.1 * WEIGHT)
+def test_limit_rises_again_for_a_leg_whose_lift_off_must_wait() -> None:
+    """It is needed on the ground."""
+    limits = [normal_force_limit(CONFIG, WEIGHT, RAMP_S, 1.0, -late * RAMP_S) for late in (0.0, 0.5, 1.0, 9.0)]
+    assert limits == pytest.approx([0.1 * WEIGHT, 1.05 * WEIGHT, 2.0 * WEIGHT, 2.0 * WEIGHT])
 
 
 def test_no_ramp_is_a_constant_limit() -> None:
