@@ -72,7 +72,8 @@ def run_jobs(arguments: Sequence[str] | None, job: Callable[[DictConfig], int]) 
     def task(document: DictConfig) -> None:
         """Run one job; a sweep learns of a failure by an exception."""
         codes.append(EXIT_FAILED)
-        codes[-1] = job(document)
+        if _in_the_commands_folder():
+            codes[-1] = job(document)
         if codes[-1] != EXIT_OK and HydraConfig.get().mode == RunMode.MULTIRUN:
             raise JobFailedError(codes[-1])
 
@@ -92,6 +93,17 @@ def run_jobs(arguments: Sequence[str] | None, job: Callable[[DictConfig], int]) 
         complain(composition_problem(error))
         return EXIT_USAGE
     return max(codes, default=EXIT_OK)
+
+
+def _in_the_commands_folder() -> bool:
+    """Go where the command was run, since relative paths begin there and a launcher may begin a job elsewhere."""
+    folder = HydraConfig.get().runtime.cwd
+    try:
+        os.chdir(folder)
+    except OSError as error:
+        complain(f"{folder}: {error.strerror}; machines that share a sweep need the folder where it was begun")
+        return False
+    return True
 
 
 def run_document(document: DictConfig) -> int:

@@ -1,5 +1,6 @@
 """Sweeps of very short trials."""
 
+import json
 from pathlib import Path
 
 from quadlab.sweeps.limits import PoolConfig
@@ -27,3 +28,8 @@ def run(trials: list[SweepTrial], folder: Path, pool: PoolConfig = FREE) -> dict
     """Run trials into ``folder`` and return their outcomes by name."""
     options = RunOptions(force=False, results_dir=str(folder))
     return {outcome.trial.name: outcome.job for outcome in run_trials(trials, options, pool)}
+
+
+def state_hashes(folder: Path) -> dict[str, str]:
+    """Return the hash of the motion of every finished trial below ``folder``, by its id."""
+    return {path.parent.name: json.loads(path.read_text())["state_sha256"] for path in folder.rglob("result.json")}

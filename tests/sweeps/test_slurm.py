@@ -8,7 +8,7 @@ from pathlib import Path
 
 import fake_slurm
 import pytest
-from sweep_cases import STANDING
+from sweep_cases import STANDING, state_hashes
 
 from quadlab.sweeps import slurm as slurm_module
 from quadlab.sweeps.main import main
@@ -35,15 +35,11 @@ def cluster(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return state
 
 
-def _hashes(folder: Path) -> dict[str, str]:
-    return {path.parent.name: json.loads(path.read_text())["state_sha256"] for path in folder.rglob("result.json")}
-
-
 def test_sweep_on_slurm_gives_what_the_pool_gives(cluster: Path, tmp_path: Path) -> None:
     assert main([*SWEEP, "results_dir=there"]) == 0
     assert main(["-m", *STANDING, "seed=0,1,2", "results_dir=here"]) == 0
-    assert len(_hashes(tmp_path / "here")) == 3
-    assert _hashes(tmp_path / "there") == _hashes(tmp_path / "here")
+    assert len(state_hashes(tmp_path / "here")) == 3
+    assert state_hashes(tmp_path / "there") == state_hashes(tmp_path / "here")
     script = (cluster / "script.sh").read_text()
     assert "#SBATCH --array=0-1%2" in script
     assert "#SBATCH --partition=short" in script
@@ -55,13 +51,13 @@ def test_dead_task_is_reported_and_the_next_sweep_runs_only_its_trials(
     monkeypatch.setenv("FAKE_SLURM_KILL", "1")
     assert main(SWEEP) == 1
     assert "SLURM task 1000_1 ended without an answer: FAILED" in capsys.readouterr().err
-    assert len(_hashes(tmp_path / "results")) == 2
+    assert len(state_hashes(tmp_path / "results")) == 2
     (error,) = (tmp_path / "results").rglob("error.json")
     assert json.loads(error.read_text())["type"] == "died"
     monkeypatch.delenv("FAKE_SLURM_KILL")
     assert main(SWEEP) == 0
     assert "--array" not in (cluster / "script.sh").read_text()
-    assert len(_hashes(tmp_path / "results")) == 3
+    assert len(state_hashes(tmp_path / "results")) == 3
 
 
 def test_without_slurm_the_sweep_says_so(
