@@ -50,11 +50,11 @@ def at_most(text: str, rows: pd.DataFrame, column: str, limit: float, unit: str,
     return Claim(text, paper, ours, judged(paper, holds=holds, partly=median <= limit), "" if holds else why)
 
 
-def variant_claims(rows: pd.DataFrame, column: str, names: dict[str, str]) -> list[Claim]:
+def variant_claims(rows: pd.DataFrame, column: str, names: dict[str, str], what: str = "stays up") -> list[Claim]:
     """Return one claim a variant that was tried, a level of ``column``: what became of it; no paper says it."""
     tried = set(rows[column])
     return [
-        Claim(f"stays up {text}", "not printed", share(rows[rows[column] == level]), Verdict.NEW)
+        Claim(f"{what} {text}", "not printed", share(rows[rows[column] == level]), Verdict.NEW)
         for level, text in names.items()
         if level in tried
     ]

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from paper_figures.trial_claims import VARIANTS, survival
+from paper_figures.trial_claims import VARIANTS, survival, variant_claims
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import COLUMN_WIDTH, GROUND, LEG_COLOURS, MEASURED, REFERENCE, paper_style
@@ -70,11 +70,8 @@ def claims(results: StudyResults) -> list[Claim]:
     share = 100.0 * highest.min() / (100.0 * LEG_LENGTH_M)
     ours = f"{highest.min():.0f} cm ({share:.0f} % of the leg), up to {highest.max():.0f} cm, {len(highest)} places"
     same = table[np.isclose(table[HEIGHT], 0.08) & table[PLACE].isin([0.55, 0.60, 0.65, 0.70, 0.75])]
-    variants = [
-        survival(f"8 cm {text}", same[same["variant"] == level], "not printed") for level, text in VARIANTS.items()
-    ]
     return [
         *heights,
         Claim("highest plank that is passed at every place tried, ekf", "not printed", ours, Verdict.NEW),
-        *(Claim(claim.text, claim.paper, claim.ours, Verdict.NEW) for claim in variants),
+        *variant_claims(same, "variant", VARIANTS, "8 cm"),
     ]
