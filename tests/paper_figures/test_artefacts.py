@@ -1,4 +1,4 @@
-"""Every table and figure of the papers is drawn from the results kept with the code; one machine gives the same bytes."""
+"""Tables and figures of the papers are drawn from the results kept with the code; one machine gives the same bytes."""
 
 from functools import cache
 from io import StringIO
