@@ -1,5 +1,6 @@
 """Decision variables of a tick: how accelerations, torques and contact forces follow from them."""
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -13,18 +14,17 @@ from quadlab.robots.legs import JOINT_COUNT
 _ACCELERATIONS = slice(0, VELOCITY_SIZE)
 _TORQUES = slice(VELOCITY_SIZE, VELOCITY_SIZE + JOINT_COUNT)
 _FORCES = slice(VELOCITY_SIZE + JOINT_COUNT, None)
-FIRST_COLUMNS = {
-    Variable.ACCELERATION: 0,
-    Variable.TORQUE: VELOCITY_SIZE,
-    Variable.FORCE: VELOCITY_SIZE + JOINT_COUNT,
-}
-"""Where each variable begins in y = [u_dot (18), tau (12), lambda (3 n)], n standing legs."""
 
 
-def block_size(variable: Variable, unknowns: int) -> int:
-    """Return how many of the ``unknowns`` of y belong to ``variable``."""
-    forces = unknowns - VELOCITY_SIZE - JOINT_COUNT
-    return {Variable.ACCELERATION: VELOCITY_SIZE, Variable.TORQUE: JOINT_COUNT, Variable.FORCE: forces}[variable]
+@cache
+def columns(unknowns: int) -> dict[Variable, tuple[int, int]]:
+    """Return where each variable begins and ends in y = [u_dot (18), tau (12), lambda], of ``unknowns`` numbers."""
+    forces = VELOCITY_SIZE + JOINT_COUNT
+    return {
+        Variable.ACCELERATION: (0, VELOCITY_SIZE),
+        Variable.TORQUE: (VELOCITY_SIZE, forces),
+        Variable.FORCE: (forces, unknowns),
+    }
 
 
 class DecisionSpace(NamedTuple):

@@ -3,22 +3,18 @@
 from collections.abc import Sequence
 from functools import cache
 from itertools import accumulate
-from typing import TypeAlias
 
 import numpy as np
 
-from quadlab.controllers.decision_space import FIRST_COLUMNS, DecisionSpace, block_size
+from quadlab.controllers.decision_space import DecisionSpace, columns
 from quadlab.controllers.hierarchy import Level, StackedLevels, stack
 from quadlab.controllers.hierarchy.level import IndexArray
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.task_levels import LevelConfig, build_task
-from quadlab.controllers.tasks.task import TaskRows, Variable
+from quadlab.controllers.tasks.task import TaskRows
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry
 from quadlab.robots.kinematics import Kinematics
-
-TaskShapes: TypeAlias = tuple[Variable, tuple[int, ...], tuple[int, ...], tuple[int, ...]]
-_AXES = 2
 
 
 class TaskStack:
@@ -32,39 +28,19 @@ class TaskStack:
     def assemble(self, kinematics: Kinematics, reference: ControlReference, space: DecisionSpace) -> StackedLevels:
         """Return all rows of a tick, highest priority first, below the constraints of the decision space."""
         rows = [task.rows(kinematics, reference) for task in self._tasks]
-        shapes = tuple([(part[0], part[1].shape, part[2].shape, part[3].shape) for part in rows])
-        starts = row_starts(shapes, len(space.offset))
-        levels = StackedLevels(*in_decision_variables(rows, starts, space), level_breaks(starts, self._level_ends))
+        breaks = level_breaks(tuple([len(part[2]) for part in rows]), self._level_ends)
+        levels = StackedLevels(*in_decision_variables(rows, space), breaks)
         return _below(space.constraints, levels) if space.constraints else levels
 
 
 @cache
-def row_starts(tasks: tuple[TaskShapes, ...], unknowns: int) -> tuple[int, ...]:
-    """Return where the rows of each task begin, and their number at the end.
+def level_breaks(sizes: tuple[int, ...], level_ends: tuple[int, ...]) -> IndexArray:
+    """Return the rows where levels begin, (levels + 1,), for tasks of ``sizes`` rows.
 
-    Args:
-        tasks: variable and shapes of matrix, lower and upper of each task.
-        unknowns: size of y in ``DecisionSpace``.
-
-    Raises:
-        ValueError: if shapes do not fit each other or the variable; compiled code that reads them would not say so.
+    Levels end before the tasks ``level_ends``. There are as many results as ways to stand; they are shared by all ticks
+    and must not be written to.
     """
-    for number, (variable, matrix, lower, upper) in enumerate(tasks):
-        columns = block_size(variable, unknowns)
-        if len(matrix) != _AXES or matrix[1] != columns or lower != matrix[:1] or upper != lower:
-            raise ValueError(
-                f"task {number} of the stack, in {variable}: matrix {matrix}, lower {lower}, upper {upper}; "
-                f"expected (m, {columns}), (m,), (m,)"
-            )
-    return (0, *accumulate(matrix[0] for _, matrix, _, _ in tasks))
-
-
-@cache
-def level_breaks(starts: tuple[int, ...], level_ends: tuple[int, ...]) -> IndexArray:
-    """Return the rows where levels begin, (levels + 1,), for levels that end before the tasks ``level_ends``.
-
-    There are as many results as ways to stand; they are shared by all ticks and must not be written to.
-    """
+    starts = (0, *accumulate(sizes))
     return np.array([starts[end] for end in level_ends])
 
 
@@ -79,37 +55,52 @@ def _below(constraints: Sequence[Level], levels: StackedLevels) -> StackedLevels
     )
 
 
-def in_decision_variables(
-    parts: Sequence[TaskRows], starts: Sequence[int], space: DecisionSpace
-) -> tuple[Array, Array, Array]:
-    """Return matrix, lower and upper of all ``parts``, in their order and from row ``starts`` on, in x."""
-    count = starts[-1]
+def in_decision_variables(parts: Sequence[TaskRows], space: DecisionSpace) -> tuple[Array, Array, Array]:
+    """Return matrix, lower and upper of all ``parts``, in their order, in x.
+
+    Raises:
+        ValueError: if the shapes of a part do not fit each other or its variable.
+    """
+    count = sum([len(part[2]) for part in parts])
     result = np.empty((count, space.size)), np.empty(count), np.empty(count)
-    for part, first in zip(parts, starts, strict=False):
-        _substitute(part[1:], FIRST_COLUMNS[part.variable], (space.linear, space.offset), first, result)
+    blocks, first = columns(len(space.offset)), 0
+    for number, part in enumerate(parts):
+        if not _substitute(part[1:], blocks[part[0]], (space.linear, space.offset), first, result):
+            begin, end = blocks[part.variable]
+            raise ValueError(
+                f"task {number} of the stack, in {part.variable}: matrix {part.matrix.shape}, "
+                f"lower {part.lower.shape}, upper {part.upper.shape}; expected (m, {end - begin}), (m,), (m,)"
+            )
+        first += len(part[2])
     return result
 
 
 @compiled_entry
 def _substitute(
     part: tuple[Array, Array, Array],
-    first_column: int,
+    block: tuple[int, int],
     substitution: tuple[Array, Array],
     first: int,
     result: tuple[Array, Array, Array],
-) -> None:
+) -> bool:
     """Write lower <= matrix x <= upper from row ``first`` of ``result`` on, for the rows of ``part`` in y.
 
     Args:
         part: matrix (m, n), most of whose entries are zero, lower and upper (m,) in a part of y.
-        first_column: where this part stands in y = linear x + offset.
+        block: where this part begins and ends in y = linear x + offset.
         substitution: linear and offset, as in ``DecisionSpace``.
         first: row to write to.
         result: matrix, lower and upper of all tasks.
+
+    Returns:
+        Whether the shapes fit; nothing is read or written if they do not.
     """
     rows, row_lower, row_upper = part
+    first_column, end_column = block
     linear, offset = substitution
     matrix, lower, upper = result
+    if len(row_lower) != len(rows) or len(row_upper) != len(rows) or rows.shape[1] != end_column - first_column:
+        return False
     for row in range(len(rows)):
         target = first + row
         matrix[target] = 0.0
@@ -121,3 +112,4 @@ def _substitute(
                     matrix[target, column] += weight * linear[first_column + k, column]
                 lower[target] -= weight * offset[first_column + k]
                 upper[target] -= weight * offset[first_column + k]
+    return True

@@ -5,7 +5,7 @@ import pytest
 from controller_cases import STANCES, any_state
 
 from quadlab.controllers.reduced_dynamics import reduce_dynamics
-from quadlab.controllers.task_stack import in_decision_variables, row_starts
+from quadlab.controllers.task_stack import in_decision_variables
 from quadlab.controllers.tasks.task import TaskRows, Variable
 from quadlab.robots.model import RobotModel
 
@@ -52,21 +52,25 @@ def test_rows_mean_the_same_when_written_in_torques(robot: RobotModel, variable:
         Variable.TORQUE: torques,
     }[variable]
     rows = TaskRows(variable, generator.normal(size=(5, len(block))), np.full(5, -np.inf), generator.normal(size=5))
-    matrix, lower, upper = in_decision_variables([rows], [0, 5], dynamics)
+    matrix, lower, upper = in_decision_variables([rows], dynamics)
     np.testing.assert_allclose(upper - matrix @ torques, rows.upper - rows.matrix @ block, rtol=1e-9, atol=1e-8)
     assert np.all(np.isneginf(lower))
 
 
 @pytest.mark.parametrize("variable", list(Variable))
 @pytest.mark.parametrize("change", [(0, 1, 0, 0), (0, -1, 0, 0), (1, 0, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)])
-def test_task_whose_rows_do_not_fit_is_refused(variable: Variable, change: tuple[int, int, int, int]) -> None:
+def test_task_whose_rows_do_not_fit_is_refused(
+    robot: RobotModel, variable: Variable, change: tuple[int, int, int, int]
+) -> None:
     """Compiled code would read and write what lies beside them."""
-    stance = 3
-    columns = {Variable.ACCELERATION: 18, Variable.TORQUE: 12, Variable.FORCE: 3 * stance}[variable]
-    assert row_starts(((variable, (5, columns), (5,), (5,)),), 30 + 3 * stance) == (0, 5)
+    stance = [0, 2, 3]
+    dynamics = reduce_dynamics(robot.kinematics(any_state(robot, 11)), stance)
+    columns = {Variable.ACCELERATION: 18, Variable.TORQUE: 12, Variable.FORCE: 3 * len(stance)}[variable]
     rows, width, lower, upper = np.add((5, columns, 5, 5), change).tolist()
-    with pytest.raises(ValueError, match=rf"task 0 of the stack, in {variable}: .*; expected \(m, {columns}\), \(m,\)"):
-        row_starts(((variable, (rows, width), (lower,), (upper,)),), 30 + 3 * stance)
+    fitting = TaskRows(variable, np.zeros((5, columns)), np.zeros(5), np.zeros(5))
+    misshapen = TaskRows(variable, np.zeros((rows, width)), np.zeros(lower), np.zeros(upper))
+    with pytest.raises(ValueError, match=rf"task 1 of the stack, in {variable}: .*; expected \(m, {columns}\), \(m,\)"):
+        in_decision_variables([fitting, misshapen], dynamics)
 
 
 def test_falling_robot_falls(robot: RobotModel) -> None:
