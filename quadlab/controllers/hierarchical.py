@@ -63,8 +63,7 @@ def resolve_levels(
     solution = solver.solve(levels, space.nearest(last_torques))
     accelerations, torques, standing_forces = space.values(solution.x)
     forces = np.zeros((LEG_COUNT, 3))
-    for leg, force in zip(reference.stance_legs, standing_forces, strict=True):
-        forces[leg] = force
+    forces[reference.stance] = standing_forces
     return Resolution(
         torques=torques,
         accelerations=accelerations,

@@ -5,13 +5,14 @@ from functools import cache
 from itertools import accumulate
 
 import numpy as np
+from numba.core.errors import TypingError
 
 from quadlab.controllers.decision_space import DecisionSpace, columns
 from quadlab.controllers.hierarchy import Level, StackedLevels, stack
 from quadlab.controllers.hierarchy.level import IndexArray
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.task_levels import LevelConfig, build_task
-from quadlab.controllers.tasks.task import TaskRows
+from quadlab.controllers.tasks.task import TaskRows, Variable
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry
 from quadlab.robots.kinematics import Kinematics
@@ -59,57 +60,79 @@ def in_decision_variables(parts: Sequence[TaskRows], space: DecisionSpace) -> tu
     """Return matrix, lower and upper of all ``parts``, in their order, in x.
 
     Raises:
-        ValueError: if the shapes of a part do not fit each other or its variable.
+        ValueError: if the arrays of a part do not fit each other or its variable, or are not contiguous float64.
     """
     count = sum([len(part[2]) for part in parts])
     result = np.empty((count, space.size)), np.empty(count), np.empty(count)
-    blocks, first = columns(len(space.offset)), 0
-    for number, part in enumerate(parts):
-        if not _substitute(part[1:], blocks[part[0]], (space.linear, space.offset), first, result):
-            begin, end = blocks[part.variable]
-            raise ValueError(
-                f"task {number} of the stack, in {part.variable}: matrix {part.matrix.shape}, "
-                f"lower {part.lower.shape}, upper {part.upper.shape}; expected (m, {end - begin}), (m,), (m,)"
-            )
-        first += len(part[2])
+    unknowns = len(space.offset)
+    blocks = block_columns(tuple([part[0] for part in parts]), unknowns)
+    try:
+        misfit = _substitute(tuple([part[1:] for part in parts]), blocks, (space.linear, space.offset), result)
+    except TypingError as error:
+        raise _unlike_arrays(parts) from error
+    if misfit >= 0:
+        begin, end = blocks[misfit]
+        variable, matrix, lower, upper = parts[misfit]
+        raise ValueError(
+            f"task {misfit} of the stack, in {variable}: matrix {matrix.shape}, lower {lower.shape}, "
+            f"upper {upper.shape}; expected (m, {end - begin}), (m,), (m,)"
+        )
     return result
+
+
+@cache
+def block_columns(variables: tuple[Variable, ...], unknowns: int) -> IndexArray:
+    """Return where the block of each of ``variables`` begins and ends in y, of ``unknowns`` numbers; (tasks, 2)."""
+    return np.array([columns(unknowns)[variable] for variable in variables])
+
+
+def _unlike_arrays(parts: Sequence[TaskRows]) -> ValueError:
+    """Return an error that names the tasks whose arrays compiled code cannot take as a list of like ones."""
+    shapes = (("matrix", 2), ("lower", 1), ("upper", 1))
+    wrong = [
+        f"task {number}: {name} {array.dtype} {array.shape}"
+        for number, part in enumerate(parts)
+        for (name, dimension), array in zip(shapes, part[1:], strict=True)
+        if array.dtype != np.float64 or array.ndim != dimension or not array.flags.carray
+    ]
+    return ValueError(f"tasks of the stack need writeable, C-contiguous float64 arrays; {', '.join(wrong)}")
 
 
 @compiled_entry
 def _substitute(
-    part: tuple[Array, Array, Array],
-    block: tuple[int, int],
+    parts: tuple[tuple[Array, Array, Array], ...],
+    blocks: IndexArray,
     substitution: tuple[Array, Array],
-    first: int,
     result: tuple[Array, Array, Array],
-) -> bool:
-    """Write lower <= matrix x <= upper from row ``first`` of ``result`` on, for the rows of ``part`` in y.
+) -> int:
+    """Write lower <= matrix x <= upper for the rows of all ``parts`` in y; one call, since calls cost the most.
 
     Args:
-        part: matrix (m, n), most of whose entries are zero, lower and upper (m,) in a part of y.
-        block: where this part begins and ends in y = linear x + offset.
+        parts: matrix (m, n), most of whose entries are zero, lower and upper (m,) in a part of y.
+        blocks: where these parts begin and end in y = linear x + offset, (parts, 2).
         substitution: linear and offset, as in ``DecisionSpace``.
-        first: row to write to.
         result: matrix, lower and upper of all tasks.
 
     Returns:
-        Whether the shapes fit; nothing is read or written if they do not.
+        The number of the first part whose shapes do not fit, of which nothing is read; -1 if there is none.
     """
-    rows, row_lower, row_upper = part
-    first_column, end_column = block
     linear, offset = substitution
     matrix, lower, upper = result
-    if len(row_lower) != len(rows) or len(row_upper) != len(rows) or rows.shape[1] != end_column - first_column:
-        return False
-    for row in range(len(rows)):
-        target = first + row
-        matrix[target] = 0.0
-        lower[target], upper[target] = row_lower[row], row_upper[row]
-        for k in range(rows.shape[1]):
-            weight = rows[row, k]
-            if weight != 0.0:
-                for column in range(matrix.shape[1]):
-                    matrix[target, column] += weight * linear[first_column + k, column]
-                lower[target] -= weight * offset[first_column + k]
-                upper[target] -= weight * offset[first_column + k]
-    return True
+    target = 0
+    for number in range(len(parts)):
+        rows, row_lower, row_upper = parts[number]
+        begin, end = blocks[number]
+        if len(row_lower) != len(rows) or len(row_upper) != len(rows) or rows.shape[1] != end - begin:
+            return number
+        for row in range(len(rows)):
+            matrix[target] = 0.0
+            lower[target], upper[target] = row_lower[row], row_upper[row]
+            for k in range(rows.shape[1]):
+                weight = rows[row, k]
+                if weight != 0.0:
+                    for column in range(matrix.shape[1]):
+                        matrix[target, column] += weight * linear[begin + k, column]
+                    lower[target] -= weight * offset[begin + k]
+                    upper[target] -= weight * offset[begin + k]
+            target += 1
+    return -1
