@@ -21,18 +21,21 @@ from quadlab.estimation.correction import (
 from quadlab.estimation.error_state import (
     ACCELEROMETER_BIAS,
     ERROR_SIZE,
+    FEET,
     GYRO_BIAS,
     ORIENTATION,
     POSITION,
     VELOCITY,
     FilterState,
     box_plus,
+    foot_block,
+    standard_deviations,
 )
 from quadlab.estimation.estimate import Estimate, FilterReport, ReadSensors
 from quadlab.estimation.leg_kinematics import LegKinematics, LegModel
 from quadlab.estimation.prediction import ProcessNoiseConfig, predict, propagate
 from quadlab.gaits.schedule import BoolArray
-from quadlab.geometry.rotations import Array, matrix_to_quat
+from quadlab.geometry.rotations import Array, matrix_to_quat, skew
 from quadlab.planners.problem import GRAVITY
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.model import RobotModel
@@ -97,7 +100,7 @@ class ExtendedKalmanFilter:
     def __init__(self, config: Config, robot: RobotModel, period_s: float, seed: int) -> None:
         self.config = config
         self.sensors = config.sensors
-        self.covariance = _initial_covariance(config.initial)
+        self.covariance: Array
         self.state: FilterState
         self._period_s = period_s
         self._seed = seed
@@ -127,10 +130,12 @@ class ExtendedKalmanFilter:
         error = np.zeros(ERROR_SIZE)
         error[ORIENTATION][:2] = self.config.initial.tilt_rad * random.standard_normal(2)
         error[VELOCITY] = self.config.initial.velocity_mps * random.standard_normal(3)
-        # The base stays where it is: dr makes up for turning about the world's origin.
+        # Base and feet stay where they are: dr and dp_i make up for turning about the world's origin.
         tilted = box_plus(truth, error)
         error[POSITION] = truth.position - tilted.position
+        error[FEET] = (truth.feet - tilted.feet).ravel()
         self.state = box_plus(truth, error)
+        self.covariance = _initial_covariance(self.config.initial, self.state)
         self._remember(reading, legs)
         report = self._report(Correction(self.state, self.covariance), np.zeros(LEG_COUNT, dtype=bool), 0.0)
         return Estimate(self._robot_state(reading, reading.foot_forces_in_base @ self.state.rotation.T), report)
@@ -204,15 +209,15 @@ class ExtendedKalmanFilter:
         )
 
     def _report(self, correction: Correction, used: BoolArray, update_us: float) -> FilterReport:
-        deviations = np.sqrt(self.covariance.diagonal()[: ORIENTATION.stop])
+        deviations = standard_deviations(self.state, self.covariance)
         return FilterReport(
             accelerometer_bias=self.state.accelerometer_bias,
             gyro_bias=self.state.gyro_bias,
             contacts=self._standing,
             used=used,
-            position_std=deviations[POSITION],
-            velocity_std=deviations[VELOCITY],
-            orientation_std=deviations[ORIENTATION],
+            position_std=deviations[0],
+            velocity_std=deviations[1],
+            orientation_std=deviations[2],
             innovation_squared=correction.innovation_squared,
             innovation_size=3 * int(used.sum()),
             outliers=self._outliers,
@@ -220,11 +225,20 @@ class ExtendedKalmanFilter:
         )
 
 
-def _initial_covariance(config: InitialUncertaintyConfig) -> Array:
+def _initial_covariance(config: InitialUncertaintyConfig, state: FilterState) -> Array:
+    """Return the covariance of the error at the start, (27, 27).
+
+    What is known are the base's place and, roughly, the feet's. Their errors dr = -dtheta x r + (r - r^) and likewise
+    dp_i depend on that of the tilt: without this correlation estimates would depend on where the world has its origin.
+    """
     deviations = np.full(ERROR_SIZE, _UNKNOWN_FOOT_M)
     deviations[POSITION] = _KNOWN
     deviations[VELOCITY] = max(config.velocity_mps, _KNOWN)
     deviations[ORIENTATION] = [*np.maximum(np.full(2, config.tilt_rad), _KNOWN), _KNOWN]
     deviations[ACCELEROMETER_BIAS] = max(config.accelerometer_bias_mps2, _KNOWN)
     deviations[GYRO_BIAS] = max(config.gyro_bias_radps, _KNOWN)
-    return np.diag(deviations**2)
+    levers = np.eye(ERROR_SIZE)
+    levers[POSITION, ORIENTATION] = skew(state.position)
+    for leg, foot in enumerate(state.feet):
+        levers[foot_block(leg), ORIENTATION] = skew(foot)
+    return np.asarray(levers @ np.diag(deviations**2) @ levers.T)

@@ -135,3 +135,30 @@ def box_minus(state: FilterState, reference: FilterState) -> Array:
     error[ACCELEROMETER_BIAS] = state.accelerometer_bias - reference.accelerometer_bias
     error[GYRO_BIAS] = state.gyro_bias - reference.gyro_bias
     return error
+
+
+def standard_deviations(state: FilterState, covariance: Array) -> Array:
+    """Return those of position in [m], velocity in [m/s] and orientation in [rad] along the world's axes, (3, 3).
+
+    They are those of r - r^ = dr - r^ x dtheta and of v - v^ alike, to first order, and not of dr and dv, which grow
+    with the distance from the world's origin.
+    """
+    return _standard_deviations(covariance, state.position, state.velocity)
+
+
+@compiled_entry
+def _standard_deviations(covariance: Array, position: Array, velocity: Array) -> Array:
+    turn = covariance[_ORIENTATION:_FEET, _ORIENTATION:_FEET]
+    deviations = np.empty((3, 3))
+    for axis in range(3):
+        after, last = (axis + 1) % 3, (axis + 2) % 3
+        for block in range(2):
+            arm = position if block == 0 else velocity
+            row = 3 * block + axis
+            with_last, with_after = covariance[row, _ORIENTATION + last], covariance[row, _ORIENTATION + after]
+            variance = covariance[row, row] - 2.0 * (arm[after] * with_last - arm[last] * with_after)
+            variance += arm[after] ** 2 * turn[last, last] + arm[last] ** 2 * turn[after, after]
+            variance -= 2.0 * arm[after] * arm[last] * turn[after, last]
+            deviations[block, axis] = math.sqrt(max(variance, 0.0))
+        deviations[2, axis] = math.sqrt(turn[axis, axis])
+    return deviations

@@ -1,5 +1,6 @@
 """The filter on recorded motions: exact without noise, convergent at rest, honest about its errors, repeatable."""
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -8,7 +9,7 @@ from estimation_cases import PERIOD, Replay, Tick, ekf_config, recorded_motion, 
 from scipy.stats import chi2
 
 from quadlab.estimation.error_state import ORIENTATION, VELOCITY
-from quadlab.geometry.rotations import Array, euler_zyx, rotation_log
+from quadlab.geometry.rotations import Array, euler_zyx, rotation_log, skew
 
 TROT = ("gait=trot", "duration_s=5")
 HYQ_TROT = ("gait=trot", "duration_s=4", "robot=hyq")
@@ -181,3 +182,39 @@ def test_covariance_stays_symmetric_and_positive() -> None:
     for covariance in shipped(TROT, 0).covariances[::200]:
         np.testing.assert_allclose(covariance, covariance.T, atol=1e-12)
         assert np.linalg.eigvalsh(covariance).min() > 0.0
+
+
+def _shifted(tick: Tick, offset: Array) -> Tick:
+    state, imu, command = tick
+    return replace(state, position_base_in_world=state.position_base_in_world + offset), imu, command
+
+
+def test_estimate_does_not_depend_on_where_the_world_has_its_origin() -> None:
+    offset = np.array([30.0, -20.0, 0.0])  # [m]
+    here, there = (
+        replay(tuple(_shifted(tick, shift) for tick in recorded_motion(*TROT)), ekf_config(), seed=3)
+        for shift in (np.zeros(3), offset)
+    )
+    second_order = 0.5 * 0.003**2 * float(np.linalg.norm(offset))  # [m] of turning by the initial tilt
+    np.testing.assert_allclose(position_errors(there), position_errors(here), atol=second_order)
+    for near, far in zip(here.estimates, there.estimates, strict=True):
+        assert near.report is not None and far.report is not None
+        np.testing.assert_allclose(far.report.position_std, near.report.position_std, rtol=1e-2, atol=1e-6)
+        np.testing.assert_allclose(far.report.velocity_std, near.report.velocity_std, rtol=1e-2)
+
+
+def test_position_is_as_uncertain_as_the_filter_says() -> None:
+    """Normalised error squared of the position, mean over independent seeds."""
+    lower, upper = chi2.interval(0.99, 3 * len(SEEDS)) / np.array(len(SEEDS))
+    squares = []
+    for seed in SEEDS:
+        run = shipped(TROT, seed)
+        state, covariance = run.states[-1], run.covariances[-1][:9, :9]
+        to_position = np.hstack([np.eye(3), np.zeros((3, 3)), -skew(state.position)])
+        error = run.truth[-1].position_base_in_world - state.position
+        squares.append(error @ np.linalg.solve(to_position @ covariance @ to_position.T, error))
+        report = run.estimates[-1].report
+        assert report is not None
+        stds = np.sqrt(np.diag(to_position @ covariance @ to_position.T))
+        np.testing.assert_allclose(report.position_std, stds, rtol=1e-9)
+    assert lower < np.mean(squares) < upper
