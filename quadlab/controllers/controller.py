@@ -21,6 +21,11 @@ class Controller(Protocol):
         """Names under which telemetry reports residuals, in order of priority."""
         ...
 
+    @property
+    def limit_names(self) -> tuple[str, ...]:
+        """Those of ``level_names`` that no tick should leave unmet: limits of torques and contact forces."""
+        ...
+
     def start(self, plan: MotionPlan, state: RobotState) -> None:
         """Begin to follow ``plan``, whose time 0 is the time of ``state``."""
         ...

@@ -31,6 +31,7 @@ class HierarchicalResolver:
         self._stack = TaskStack(config.levels)
         self._formulate = FORMULATIONS[config.formulation]
         self.level_names = (*constraint_names(config.formulation), *self._stack.names)
+        self.limit_names = config.limit_names
         self._solver = LevelSolver(config, self.level_names)
 
     def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
@@ -72,4 +73,5 @@ def resolve_levels(
         iterations=solution.iterations,
         solved=solution.solved,
         certificate=solution.certificate,
+        reason=solution.reason,
     )

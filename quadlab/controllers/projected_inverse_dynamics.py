@@ -1,11 +1,12 @@
 """Projected inverse dynamics: reference accelerations, contact forces projected away (Winkler 2017, IV)."""
 
 from enum import StrEnum
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
+from pydantic import Field
 
-from quadlab.configuration import Positive, StrictModel, register
+from quadlab.configuration import StrictModel, register
 from quadlab.controllers.controller_config import TrackingControllerConfig
 from quadlab.controllers.driven_motion import DrivenMotion, carried_base, legs_following_base
 from quadlab.controllers.reference import ControlReference
@@ -63,17 +64,18 @@ class ProjectedInverseDynamicsResolver:
             gains: error dynamics.
             redundancy: what is smallest among the torques of one motion.
             rank_tolerance: singular values below this share of the largest count as zero in all pseudo-inverses of
-                contacts.
+                contacts; below 1.
         """
 
         kind: Literal["projected_inverse_dynamics"]
         gains: BaseGains
         redundancy: Redundancy
-        rank_tolerance: Positive
+        rank_tolerance: Annotated[float, Field(gt=0.0, lt=1.0)]
 
     def __init__(self, config: Config) -> None:
         self.config = config
         self.level_names = ("base", "feet")
+        self.limit_names = ()
 
     def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
         """Return the torques of Eq. (22)-(23)."""
@@ -104,7 +106,8 @@ class ProjectedInverseDynamicsResolver:
             contact_forces=contact_forces,
             residuals={"base": float(np.linalg.norm(residual[BASE])), "feet": float(np.linalg.norm(residual[JOINTS]))},
             iterations=0,
-            solved=bool(np.isfinite(torques).all()),
+            solved=(finite := bool(np.isfinite(torques).all())),
+            reason="" if finite else "torques that are not finite",
         )
 
     def _torques_and_forces(self, contact: Array, inverse_dynamics: Array) -> tuple[Array, Array]:
@@ -135,12 +138,12 @@ class ProjectedInverseDynamicsResolver:
             reference.com_position - kinematics.com_position[:2],
         )
         height = gains.height.acceleration(
-            0.0,
-            -kinematics.base_linear_velocity[2:],
+            reference.base_acceleration[2:],
+            reference.base_velocity[2:] - kinematics.base_linear_velocity[2:],
             np.array([reference.base_height - kinematics.base_position[2]]),
         )
         angular = gains.orientation.acceleration(
-            0.0,
+            reference.base_angular_acceleration,
             reference.base_angular_velocity - kinematics.base_angular_velocity,
             rotation_log(reference.base_rotation @ kinematics.base_rotation.T),
         )

@@ -13,10 +13,11 @@ class ControlReference:
 
     Attributes:
         com_position, com_velocity, com_acceleration: x and y, (2,) in [m], [m/s], [m/s^2].
-        base_position: x and y of the base origin, (2,) in [m]; it moves with the CoM's velocity and acceleration.
-        base_height: of the base origin in [m]; it shall be at rest.
+        base_position: x and y of the base origin, (2,) in [m].
+        base_height: of the base origin in [m].
+        base_velocity, base_acceleration: of the base origin, (3,) in [m/s], [m/s^2].
         base_rotation: base to world, (3, 3).
-        base_angular_velocity: (3,) in [rad/s].
+        base_angular_velocity, base_angular_acceleration: (3,) in [rad/s], [rad/s^2].
         foot_positions, foot_velocities, foot_accelerations: contact points of the legs in the air, (4, 3)
             in [m], [m/s], [m/s^2]; rows of standing legs are NaN.
         stance: which legs carry load, (4,).
@@ -33,8 +34,11 @@ class ControlReference:
     com_acceleration: Array
     base_position: Array
     base_height: float
+    base_velocity: Array
+    base_acceleration: Array
     base_rotation: Array
     base_angular_velocity: Array
+    base_angular_acceleration: Array
     foot_positions: Array
     foot_velocities: Array
     foot_accelerations: Array

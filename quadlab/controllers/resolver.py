@@ -1,11 +1,15 @@
 """The part of a controller that finds torques for the reference of a tick; what controller variants differ in."""
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple, Protocol
+
+import numpy as np
 
 from quadlab.controllers.reference import ControlReference
 from quadlab.geometry.rotations import Array
-from quadlab.robots.kinematics import Kinematics
+from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
+from quadlab.robots.legs import JOINT_COUNT, LEG_COUNT
 
 
 class Resolution(NamedTuple):
@@ -19,6 +23,7 @@ class Resolution(NamedTuple):
         iterations: of the solver.
         solved: whether the solver finished; if not, ``torques`` is not to be used.
         certificate: how far from optimal the torques are, largest over the levels; NaN if it was not asked for.
+        reason: why the solver did not finish, in one line; empty if it did.
     """
 
     torques: Array
@@ -28,6 +33,7 @@ class Resolution(NamedTuple):
     iterations: int
     solved: bool
     certificate: float = math.nan
+    reason: str = ""
 
 
 class Resolver(Protocol):
@@ -36,6 +42,11 @@ class Resolver(Protocol):
     @property
     def level_names(self) -> tuple[str, ...]:
         """Names of the residuals, in order of priority."""
+        ...
+
+    @property
+    def limit_names(self) -> tuple[str, ...]:
+        """Names of the residuals that no tick should have: those of torque and contact-force limits."""
         ...
 
     def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
@@ -47,3 +58,16 @@ class Resolver(Protocol):
             last_torques: of the tick before, (12,) in [N m]; where the solver starts.
         """
         ...
+
+
+def unsolved(names: Sequence[str], reason: str) -> Resolution:
+    """Return the answer of a tick without one."""
+    return Resolution(
+        torques=np.full(JOINT_COUNT, math.nan),
+        accelerations=np.zeros(VELOCITY_SIZE),
+        contact_forces=np.zeros((LEG_COUNT, 3)),
+        residuals=dict.fromkeys(names, math.nan),
+        iterations=0,
+        solved=False,
+        reason=reason,
+    )

@@ -55,5 +55,9 @@ def describe_tick(
         reference_us=timings_us[1],
         solve_us=timings_us[2],
         certificate=resolution.certificate,
-        events=tracked.events,
+        events=tracked.events if resolution.solved else (*tracked.events, _not_solved(resolution, fallbacks)),
     )
+
+
+def _not_solved(resolution: Resolution, fallbacks: int) -> str:
+    return f"tick not solved, the last torques are kept ({fallbacks} so far): {resolution.reason}"

@@ -7,17 +7,20 @@ import numpy as np
 
 from quadlab.configuration import part_of
 from quadlab.controllers.controller_config import JointPdConfig, TrackingControllerConfig
+from quadlab.controllers.hierarchy import HierarchyError
 from quadlab.controllers.joint_reference import joint_drive
-from quadlab.controllers.resolver import Resolution, Resolver
+from quadlab.controllers.reference import ControlReference
+from quadlab.controllers.resolver import Resolution, Resolver, unsolved
 from quadlab.controllers.telemetry import ControlTelemetry
 from quadlab.controllers.tick_report import describe_tick
 from quadlab.controllers.tracking.handover import PlanProgress
 from quadlab.controllers.tracking.tracker import MotionTracker
 from quadlab.errors import QuadlabError
 from quadlab.planners.plan import MotionPlan
+from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.legs import JOINT_COUNT
 from quadlab.robots.model import RobotModel
-from quadlab.robots.state import JointCommand, RobotState
+from quadlab.robots.state import JointCommand, JointDrive, RobotState
 
 
 def build_controller(config: Any, robot: RobotModel) -> "TrackingController":
@@ -34,7 +37,7 @@ class TrackingController:
         self.robot = robot
         self.resolver = resolver
         self.period_s = 1.0 / config.rate_hz
-        self.level_names = resolver.level_names
+        self.level_names, self.limit_names = resolver.level_names, resolver.limit_names
         self.fallbacks = 0
         self._tracker: MotionTracker | None = None
         self._start_s = 0.0
@@ -75,8 +78,7 @@ class TrackingController:
         modelled = time.perf_counter()
         tracked = tracker.update(state.time_s - self._start_s, kinematics, state.foot_forces_in_world[:, 2])
         referenced = time.perf_counter()
-        resolution = self.resolver.resolve(kinematics, tracked.reference, self._torques)
-        accepted = self._accept(resolution)
+        accepted = self._accept(self._resolve(kinematics, tracked.reference))
         solved = time.perf_counter()
         telemetry = describe_tick(
             tracked,
@@ -85,19 +87,33 @@ class TrackingController:
             fallbacks=self.fallbacks,
             timings_us=(1e6 * (modelled - began), 1e6 * (referenced - modelled), 1e6 * (solved - referenced)),
         )
-        drive_config: JointPdConfig | None = self.config.joint_pd
-        drive = joint_drive(drive_config, kinematics, tracked.reference, accepted) if drive_config else None
-        return JointCommand(accepted.torques, drive), telemetry
+        return JointCommand(accepted.torques, self._drive(kinematics, tracked.reference, accepted)), telemetry
 
     def _started(self) -> MotionTracker:
         if self._tracker is None:
             raise QuadlabError("controller: no plan to follow; call start(plan, state) first")
         return self._tracker
 
+    def _resolve(self, kinematics: Kinematics, reference: ControlReference) -> Resolution:
+        """Return the resolver's answer; numbers that no method can work with are a tick without one."""
+        try:
+            return self.resolver.resolve(kinematics, reference, self._torques)
+        except (HierarchyError, np.linalg.LinAlgError) as error:
+            return unsolved(self.level_names, str(error))
+
     def _accept(self, resolution: Resolution) -> Resolution:
-        """Take the resolver's answer, or count it and keep the last torques if it did not finish."""
+        """Take the resolver's answer, or count it and keep the last torques, within the limits, if it did not finish.
+
+        Nothing else of an answer that is not used is kept: no forces are expected, and drives are off.
+        """
         if resolution.solved:
             self._torques = resolution.torques
             return resolution
         self.fallbacks += 1
-        return resolution._replace(torques=self._torques, accelerations=np.zeros_like(resolution.accelerations))
+        limits = self.robot.torque_limits
+        kept = unsolved(self.level_names, resolution.reason)
+        return kept._replace(torques=np.clip(self._torques, -limits, limits), iterations=resolution.iterations)
+
+    def _drive(self, kinematics: Kinematics, reference: ControlReference, resolution: Resolution) -> JointDrive | None:
+        config: JointPdConfig | None = self.config.joint_pd
+        return joint_drive(config, kinematics, reference, resolution) if config and resolution.solved else None

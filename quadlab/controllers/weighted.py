@@ -10,7 +10,7 @@ from quadlab.controllers.decision_space import DecisionSpace
 from quadlab.controllers.formulation import FORMULATIONS, constraint_names
 from quadlab.controllers.hierarchical import resolve_levels
 from quadlab.controllers.hierarchy import StackedLevels
-from quadlab.controllers.level_solver import LevelledControllerConfig, LevelSolver
+from quadlab.controllers.level_solver import WEIGHTED, LevelledControllerConfig, LevelSolver
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.resolver import Resolution
 from quadlab.controllers.task_stack import TaskStack
@@ -53,7 +53,8 @@ class WeightedResolver:
         names = (*constraint_names(config.formulation), *self._stack.names)
         self._limits = len(names) - len(config.weights)
         self._roots = np.sqrt([config.weights[name] for name in names[self._limits :]])
-        self.level_names = (*names[: self._limits], "weighted")
+        self.level_names = (*names[: self._limits], WEIGHTED)
+        self.limit_names = tuple(name for name in config.limit_names if name not in config.weights)
         self._solver = LevelSolver(config, self.level_names)
 
     def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:

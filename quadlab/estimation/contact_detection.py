@@ -1,8 +1,10 @@
 """Which feet touch the ground, from the forces under them."""
 
 from dataclasses import dataclass, field
+from typing import Self
 
 import numpy as np
+from pydantic import model_validator
 
 from quadlab.configuration import NonNegative, Positive, StrictModel
 from quadlab.gaits.schedule import BoolArray
@@ -25,6 +27,15 @@ class ContactDetectionConfig(StrictModel):
     lift_off_share: Positive
     settling_s: NonNegative
     time_constant_s: NonNegative
+
+    @model_validator(mode="after")
+    def _contact_ends_below_where_it_starts(self) -> Self:
+        if self.lift_off_share > self.touch_down_share:
+            raise ValueError(
+                f"lift_off_share must not be above touch_down_share; are {self.lift_off_share:g} and "
+                f"{self.touch_down_share:g}"
+            )
+        return self
 
 
 @dataclass

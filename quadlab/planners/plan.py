@@ -1,10 +1,12 @@
 """A motion plan: curves and footholds in the plan frame that can be evaluated at any time."""
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 from quadlab.gaits.schedule import BoolArray, ContactSchedule
 from quadlab.geometry.curve import Curve
+from quadlab.geometry.pose_curve import PoseCurve, pose_curve
 from quadlab.geometry.rotations import Array
 
 
@@ -119,6 +121,11 @@ class MotionPlan:
     verdict: PlanVerdict
     foot_yaws: tuple[Array, ...] = ()
     base: BaseMotion | None = None
+
+    @cached_property
+    def base_curve(self) -> PoseCurve | None:
+        """The motion of the base through its samples (Gehring 2017, III-C); None for a point mass."""
+        return None if self.base is None else pose_curve(self.base.times_s, self.base.positions, self.base.quats_wxyz)
 
     @property
     def duration_s(self) -> float:

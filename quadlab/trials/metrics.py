@@ -51,14 +51,17 @@ class TrialMetrics:
         mass: of the robot in [kg].
         torque_limits: (12,) in [N m].
         period_s: control period in [s].
+        limit_names: of the controller's residuals that no tick should have.
     """
 
     mass: float
     torque_limits: Array
     period_s: float
+    limit_names: tuple[str, ...] = ()
     _rows: list[Array] = field(default_factory=list)
     _modes: list[tuple[LegMode, ...]] = field(default_factory=list)
     _fallbacks: int = 0
+    _limit_residual: float = 0.0
     _hash: "hashlib._Hash" = field(default_factory=hashlib.sha256)
 
     def add(self, state: RobotState, command: JointCommand, telemetry: ControlTelemetry, physics_state: Array) -> None:
@@ -85,6 +88,8 @@ class TrialMetrics:
         self._rows.append(np.concatenate(parts))
         self._modes.append(telemetry.leg_modes)
         self._fallbacks = telemetry.fallbacks
+        for name in self.limit_names:
+            self._limit_residual = max(self._limit_residual, telemetry.level_residuals[name])
         self._hash.update(np.ascontiguousarray(physics_state).tobytes())
 
     @property
@@ -117,6 +122,7 @@ class TrialMetrics:
             "foot_slip_max_mm": 1e3 * self._longest_slip(ticks["foot_velocities"], ticks["foot_forces"]),
             "torque_max_nm": float(torques.max()),
             "torque_limit_share": float((torques >= _AT_LIMIT * self.torque_limits).any(axis=1).mean()),
+            "limit_residual_max": self._limit_residual if self.limit_names else None,
             "cost_of_transport": energy / (weight * distance) if distance > _LEAST_DISTANCE_M else None,
             "control_tick_median_us": float(np.median(ticks["tick_us"])),
             "control_tick_p99_us": float(np.percentile(ticks["tick_us"], 99)),

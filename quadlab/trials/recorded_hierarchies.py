@@ -28,7 +28,7 @@ class RecordingResolver:
     """A hierarchical resolver that hands the levels of every ``stride``-th tick to ``handler`` and then solves them."""
 
     def __init__(self, resolver: HierarchicalResolver, stride: int, handler: HierarchyHandler) -> None:
-        self.level_names = resolver.level_names
+        self.level_names, self.limit_names = resolver.level_names, resolver.limit_names
         self._resolver = resolver
         self._stride = stride
         self._handler = handler

@@ -49,6 +49,8 @@ class TrialResult(StrictModel):
         foot_slip_max_mm: farthest that a standing foot slid in one stance, in [mm].
         torque_max_nm: largest joint torque in [N m].
         torque_limit_share: share of control ticks in which a torque was at its limit.
+        limit_residual_max: largest unmet part of a level of torque or contact-force limits in a tick, in [N m] or [N];
+            null for controllers without such levels.
         cost_of_transport: mechanical energy over weight times distance.
         planning_build_ms, planning_solve_ms: wall time in [ms].
         planning_iterations: of the planner's solver.
@@ -91,6 +93,7 @@ class TrialResult(StrictModel):
     foot_slip_max_mm: NonNegative | None = None
     torque_max_nm: NonNegative | None = None
     torque_limit_share: Fraction | None = None
+    limit_residual_max: NonNegative | None = None
     cost_of_transport: float | None = None
     planning_build_ms: NonNegative | None = None
     planning_solve_ms: NonNegative | None = None

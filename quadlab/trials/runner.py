@@ -92,7 +92,7 @@ class ClosedLoop:
     ) -> None:
         self.config = config
         self.plan = plan
-        self.metrics = TrialMetrics(robot.mass, robot.torque_limits, controller.period_s)
+        self.metrics = TrialMetrics(robot.mass, robot.torque_limits, controller.period_s, controller.limit_names)
         self.estimation = EstimationMetrics()
         self.real_time_factor = 0.0
         self._robot = robot

@@ -44,6 +44,7 @@ def test_gait_from_a_perturbed_start(robot: str, gait: str, tmp_path: Path) -> N
     assert result.com_error_max_mm is not None and result.com_error_max_mm < 30.0
     assert result.roll_pitch_rms_deg is not None and result.roll_pitch_rms_deg < 0.7
     assert result.torque_max_nm is not None and result.torque_max_nm <= {"anymal_b": 40.0, "hyq": 150.0}[robot]
+    assert result.limit_residual_max is not None and result.limit_residual_max < 1e-6, "torque, friction, unilateral"
     assert result.control_fallbacks == 0
 
 

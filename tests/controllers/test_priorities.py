@@ -71,6 +71,7 @@ class GivesUp:
     """A resolver whose solver never finishes."""
 
     level_names = ("torque",)
+    limit_names = level_names
 
     def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
         nonsense = np.full(12, 1e3)
@@ -138,3 +139,30 @@ def test_state_that_is_not_finite_is_counted_and_not_obeyed(robot: RobotModel) -
     kept, telemetry = controller.tick(broken)
     np.testing.assert_array_equal(kept.torques, solved.torques)
     assert telemetry.fallbacks == 1
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"certify": True},
+        {"method": "cascade"},
+        {"formulation": "accelerations_torques"},
+        {"formulation": "accelerations_forces"},
+        {"joint_pd": {"proportional_nm_per_rad": 400.0, "derivative_nms_per_rad": 8.0}},
+    ],
+    ids=str,
+)
+def test_tick_that_no_method_can_solve_keeps_bounded_torques_and_says_so(
+    robot: RobotModel, changes: dict[str, Any]
+) -> None:
+    controller = build_controller(controller_config(**changes), robot)
+    state = with_loads(robot, robot.nominal_state())
+    controller.start(uniform_plan(robot, standing_schedule()), state)
+    solved, _ = controller.tick(state)
+    kept, telemetry = controller.tick(replace(state, joint_velocities=np.full(12, np.nan)))
+    np.testing.assert_array_equal(kept.torques, solved.torques)
+    assert np.all(np.abs(kept.torques) <= robot.torque_limits)
+    assert kept.drive is None
+    assert telemetry.fallbacks == 1
+    assert not telemetry.contact_forces_desired.any(), "nothing is expected of an answer that is not used"
+    assert any("not solved" in event for event in telemetry.events)

@@ -1,5 +1,9 @@
 """Limits on positions as limits on accelerations (Bellicoso 2016, Eq. 25-27)."""
 
+from typing import Self
+
+from pydantic import model_validator
+
 from quadlab.configuration import Positive, StrictModel
 from quadlab.controllers.tasks.task import TaskRows, Variable
 from quadlab.geometry.rotations import Array
@@ -17,6 +21,12 @@ class HeightRangeConfig(StrictModel):
     minimum: Positive
     maximum: Positive
     look_ahead_s: Positive
+
+    @model_validator(mode="after")
+    def _range_is_not_empty(self) -> Self:
+        if self.minimum >= self.maximum:
+            raise ValueError(f"minimum must be below maximum; are {self.minimum:g} and {self.maximum:g}")
+        return self
 
     def bounds(self, standing_height: float) -> tuple[float, float]:
         """Return the range in [m] for a robot whose base stands at ``standing_height`` in [m]."""

@@ -13,7 +13,7 @@ from quadlab.robots.kinematics import Kinematics
 
 @register("task", "base_height")
 class BaseHeightTask:
-    """J_B,z u_dot = - K_d z_dot + K_p (z_ref - z) - J_dot u."""
+    """J_B,z u_dot = z_ddot_ref + K_d (z_dot_ref - z_dot) + K_p (z_ref - z) - J_dot u."""
 
     class Config(TrackingGains):
         """Gains of the vertical base motion."""
@@ -26,6 +26,7 @@ class BaseHeightTask:
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return one row in accelerations."""
         error = reference.base_height - kinematics.base_position[2]
-        damping = self.config.derivative_per_s * kinematics.base_linear_velocity[2]
-        target = self.config.proportional_per_s2 * error - damping - kinematics.base_bias[2]
+        velocity_error = reference.base_velocity[2] - kinematics.base_linear_velocity[2]
+        commanded = self.config.acceleration(reference.base_acceleration[2], velocity_error, error)
+        target = commanded - kinematics.base_bias[2]
         return equation(Variable.ACCELERATION, kinematics.base_jacobian[2:3], np.array([target]))

@@ -25,6 +25,7 @@ def _write_angular_target(
     _target_below_half_turn(
         gains.proportional_per_s2,
         gains.derivative_per_s,
+        reference.base_angular_acceleration,
         (reference.base_rotation, kinematics.base_rotation),
         (reference.base_angular_velocity, kinematics.base_angular_velocity),
         kinematics.base_bias,
@@ -33,7 +34,8 @@ def _write_angular_target(
     if math.isnan(target[0]):
         error = rotation_error(reference.base_rotation, kinematics.base_rotation)
         velocity_error = reference.base_angular_velocity - kinematics.base_angular_velocity
-        target[:] = gains.acceleration(0.0, velocity_error, error) - kinematics.base_bias[3:]
+        commanded = gains.acceleration(reference.base_angular_acceleration, velocity_error, error)
+        target[:] = commanded - kinematics.base_bias[3:]
 
 
 def _compile_target(fingerprint: int) -> Callable[..., None]:
@@ -41,6 +43,7 @@ def _compile_target(fingerprint: int) -> Callable[..., None]:
     def target_below_half_turn(
         proportional_per_s2: float,
         derivative_per_s: float,
+        feed_forward: Array,
         rotations: tuple[Array, Array],
         velocities: tuple[Array, Array],
         base_bias: Array,
@@ -49,8 +52,8 @@ def _compile_target(fingerprint: int) -> Callable[..., None]:
         """Write the target of ``_write_angular_target``; NaN near half a turn. Pairs are reference and measured."""
         _ = fingerprint  # a closure variable, so that the cached machine code follows a change of what is called
         error = error_below_half_turn(rotations[0], rotations[1])
-        zero = np.zeros(3)
-        tracking_target(proportional_per_s2, derivative_per_s, zero, velocities, (error, zero), base_bias[3:], target)
+        errors = (error, np.zeros(3))
+        tracking_target(proportional_per_s2, derivative_per_s, feed_forward, velocities, errors, base_bias[3:], target)
 
     return target_below_half_turn
 

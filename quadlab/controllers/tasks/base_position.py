@@ -30,8 +30,8 @@ class BasePositionTask:
         write_tracking_rows(
             self.config.proportional_per_s2,
             self.config.derivative_per_s,
-            reference.com_acceleration,
-            (reference.com_velocity, kinematics.base_linear_velocity),
+            reference.base_acceleration,
+            (reference.base_velocity, kinematics.base_linear_velocity),
             (reference.base_position, kinematics.base_position),
             kinematics.base_bias,
             kinematics.base_jacobian,

@@ -1,8 +1,9 @@
 """Settings of all between plan and tasks; lengths without a unit are shares of the robot's standing base height."""
 
 from enum import StrEnum
+from typing import Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from quadlab.configuration import Fraction, NonNegative, Positive, StrictModel
 from quadlab.robots.legs import LEG_COUNT
@@ -28,7 +29,8 @@ class AlignmentConfig(StrictModel):
     Attributes:
         torso: for the torso's reference.
         swing: for the footholds of swinging legs.
-        time_constant_s: of the filter that smooths the jumps of the feet-centred alignment in [s].
+        time_constant_s: of the filter of the torso's alignment, which jumps at new footholds if it is feet-centred; in
+            [s]. Footholds have the same filter if both are feet-centred, and none otherwise.
     """
 
     torso: Alignment
@@ -104,15 +106,35 @@ class ForceRampConfig(StrictModel):
     maximum_weight_share: Positive
     initial_weight_share: NonNegative
 
+    @model_validator(mode="after")
+    def _limit_rises(self) -> Self:
+        if self.initial_weight_share > self.maximum_weight_share:
+            raise ValueError(
+                f"initial_weight_share must not be above maximum_weight_share; are {self.initial_weight_share:g} and "
+                f"{self.maximum_weight_share:g}"
+            )
+        return self
+
+
+class TorsoReference(StrEnum):
+    """What the base is to follow; the CoM always follows the plan."""
+
+    COM = "com"
+    """The planned CoM, over which it is laid as in the nominal stance, at standing height."""
+    BASE = "base"
+    """The planned base (Gehring 2017, III-C) of planners that plan it; with others as ``COM``."""
+
 
 class TorsoConfig(StrictModel):
-    """How the torso follows the ground.
+    """How the torso follows plan and ground.
 
     Attributes:
+        reference: what position, height and attitude follow.
         slope_following: share of the terrain's slope that roll and pitch follow.
         terrain_time_constant_s: of the filter on the terrain plane in [s].
     """
 
+    reference: TorsoReference
     slope_following: Fraction
     terrain_time_constant_s: Positive
 

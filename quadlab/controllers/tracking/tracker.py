@@ -16,13 +16,20 @@ from quadlab.controllers.tracking.alignment import (
     identity_alignment,
 )
 from quadlab.controllers.tracking.balance import Balance
-from quadlab.controllers.tracking.config import Alignment, TrackingConfig
+from quadlab.controllers.tracking.config import Alignment, TorsoReference, TrackingConfig
 from quadlab.controllers.tracking.contact_machine import start_contacts
 from quadlab.controllers.tracking.feet import FootPlanner
 from quadlab.controllers.tracking.force_ramp import normal_force_limit, ramp_duration
 from quadlab.controllers.tracking.handover import PlanProgress, feet_in_progress
 from quadlab.controllers.tracking.plan_clock import PlanClock
-from quadlab.controllers.tracking.torso import ground_axes, torso_rotation
+from quadlab.controllers.tracking.torso import ground_axes
+from quadlab.controllers.tracking.torso_motion import (
+    Ground,
+    NominalStance,
+    TorsoMotion,
+    planned_torso,
+    torso_under_com,
+)
 from quadlab.estimation.terrain_plane import TerrainPlane, blend, fit_plane
 from quadlab.geometry.rotations import Array, yaw_of
 from quadlab.planners.capture_point import capture_point
@@ -69,9 +76,8 @@ class MotionTracker:
         self.plan = plan
         self._weight = robot.mass * GRAVITY
         self._base_height = float(robot.nominal_state().position_base_in_world[2])
-        self._com_in_base = robot.nominal_com_in_base[:2].tolist()
+        self._stance = NominalStance(tuple(robot.nominal_com_in_base[:2].tolist()), self._base_height)
         self._contacts = start_contacts(config.contact, plan.schedule, self._weight, start.foot_positions)
-        self._ramps_s = [ramp_duration(config.force_ramp, plan.schedule, leg) for leg in range(LEG_COUNT)]
         self._alignment = SmoothedAlignment(config.alignment.time_constant_s, identity_alignment())
         self._terrain = fit_plane(start.foot_positions, start.com_position[:2])
         self._clock = PlanClock(math.sqrt(robot.nominal_com_height / GRAVITY))
@@ -177,28 +183,24 @@ class MotionTracker:
         stance_points: Array,
         kinematics: Kinematics,
     ) -> ControlReference:
-        com_position = torso.position(sample.com_position[:2])
-        rate = self._clock.rate
-        com_velocity = rate * torso.vector(sample.com_velocity[:2])
-        com_change = rate**2 * sample.com_acceleration[:2] + self._clock.rate_change * sample.com_velocity[:2]
-        yaw = sample.yaw + torso.yaw
-        kind = self.config.alignment.swing
-        if kind is self.config.alignment.torso:
-            footholds = torso
-        else:
-            footholds = self._raw_alignment(kind, sample, stance_points, kinematics)
-        clock = (rate, self._clock.rate_change)
-        feet = self._feet.motions(
-            self._contacts.legs, plan_time_s, clock, footholds, com_velocity, kinematics, self._terrain
-        )
+        rate, rate_change = clock = self._clock.rate, self._clock.rate_change
+        com_change = rate**2 * sample.com_acceleration[:2] + rate_change * sample.com_velocity[:2]
+        com_position, com_velocity = torso.position(sample.com_position[:2]), torso.vector(sample.com_velocity[:2])
+        com = (com_position, rate * com_velocity, torso.vector(com_change))
+        base = self._base_motion(plan_time_s, sample, torso, com, kinematics)
+        footholds = self._footholds_alignment(sample, torso, stance_points, kinematics)
+        feet = self._feet.motions(self._contacts.legs, plan_time_s, clock, footholds, com[1], kinematics, self._terrain)
         return ControlReference(
-            com_position=com_position,
-            com_velocity=com_velocity,
-            com_acceleration=torso.vector(com_change),
-            base_position=com_position - self._com_in_base_at(yaw),
-            base_height=self._terrain.height_at(kinematics.base_position[:2]) + self._base_height,
-            base_rotation=torso_rotation(yaw, self._terrain, self.config.torso.slope_following),
-            base_angular_velocity=np.array([0.0, 0.0, rate * sample.yaw_rate]),
+            com_position=com[0],
+            com_velocity=com[1],
+            com_acceleration=com[2],
+            base_position=base.position[:2],
+            base_height=float(base.position[2]),
+            base_velocity=base.velocity,
+            base_acceleration=base.acceleration,
+            base_rotation=base.rotation,
+            base_angular_velocity=base.angular_velocity,
+            base_angular_acceleration=base.angular_acceleration,
             foot_positions=feet[0],
             foot_velocities=feet[1],
             foot_accelerations=feet[2],
@@ -208,20 +210,41 @@ class MotionTracker:
             joint_position_limits=self.robot.joint_position_limits,
             weight=self._weight,
             standing_height=self._base_height,
-            ground_axes=ground_axes(yaw, self._terrain),
+            ground_axes=ground_axes(sample.yaw + torso.yaw, self._terrain),
         )
 
-    def _com_in_base_at(self, yaw: float) -> Array:
-        """Return the CoM relative to the base origin in the nominal stance at heading ``yaw``, (2,) in [m]."""
-        cosine, sine = math.cos(yaw), math.sin(yaw)
-        x, y = self._com_in_base
-        return np.array([cosine * x - sine * y, sine * x + cosine * y])
+    def _base_motion(
+        self,
+        plan_time_s: float,
+        sample: PlanSample,
+        torso: PlanarPose,
+        com: tuple[Array, Array, Array],
+        kinematics: Kinematics,
+    ) -> TorsoMotion:
+        """Return what the base shall do; ``com`` as in ``torso_under_com``."""
+        config, clock = self.config.torso, (self._clock.rate, self._clock.rate_change)
+        height = self._terrain.height_at(kinematics.base_position[:2])
+        ground = Ground(self._terrain, height, config.slope_following)
+        if config.reference is TorsoReference.BASE and self.plan.base_curve is not None:
+            return planned_torso(self.plan.base_curve.motion(plan_time_s), torso, clock, ground)
+        turning = (sample.yaw + torso.yaw, clock[0] * sample.yaw_rate)
+        return torso_under_com(com, turning, ground, self._stance)
+
+    def _footholds_alignment(
+        self, sample: PlanSample, torso: PlanarPose, stance_points: Array, kinematics: Kinematics
+    ) -> PlanarPose:
+        """Return the alignment of footholds: smoothed like the torso's if it jumps at new footholds, else as it is."""
+        kind = self.config.alignment.swing
+        if kind is Alignment.FEET and self.config.alignment.torso is Alignment.FEET:
+            return torso
+        return self._raw_alignment(kind, sample, stance_points, kinematics)
 
     def _force_limit(self, leg: int, plan_time_s: float) -> float:
-        state = self._contacts.legs[leg]
+        state, schedule, ramp = self._contacts.legs[leg], self.plan.schedule, self.config.force_ramp
         if state.mode is not LegMode.STANCE:
             return 0.0
-        swings = self.plan.schedule.swings[leg]
+        swings = schedule.swings[leg]
         lift_off_s = swings[state.foothold].start_s if state.foothold < len(swings) else math.inf
         since_s, until_s = plan_time_s - state.touch_down_s, lift_off_s - plan_time_s
-        return normal_force_limit(self.config.force_ramp, self._weight, self._ramps_s[leg], since_s, until_s)
+        ramp_s = ramp_duration(ramp, schedule, leg, state.foothold, max(state.touch_down_s, -self._began_s))
+        return normal_force_limit(ramp, self._weight, ramp_s, since_s, until_s)

@@ -55,8 +55,26 @@ def test_no_ramp_is_a_constant_limit() -> None:
 def test_ramp_is_a_share_of_the_stance_between_swings(gait: str, duration_s: float, stance_s: float) -> None:
     schedule = gait_schedule(gait, duration_s)
     for leg in range(4):
-        assert ramp_duration(CONFIG, schedule, leg) == pytest.approx(0.02 * stance_s)
+        assert ramp_duration(CONFIG, schedule, leg, 1, 0.0) == pytest.approx(0.02 * stance_s)
+
+
+def test_ramp_follows_the_gait() -> None:
+    """Stances of a walk are longer than those of the trot that it becomes."""
+    schedule = gait_schedule("walk_to_trot_cycles", 12.0)
+    for leg in range(4):
+        footholds = range(1, len(schedule.swings[leg]))
+        ramps_s = [ramp_duration(CONFIG, schedule, leg, foothold, 0.0) for foothold in footholds]
+        assert max(ramps_s) > 2.0 * min(ramps_s)
+
+
+def test_first_and_last_stance_reach_to_the_ends_of_what_is_known() -> None:
+    schedule = gait_schedule("trot", 5.0)
+    swings = schedule.swings[0]
+    assert ramp_duration(CONFIG, schedule, 0, 0, 0.0) == pytest.approx(0.02 * swings[0].start_s)
+    assert ramp_duration(CONFIG, schedule, 0, 0, -0.3) == pytest.approx(0.02 * (swings[0].start_s + 0.3))
+    rest_s = schedule.duration_s - swings[-1].end_s
+    assert ramp_duration(CONFIG, schedule, 0, len(swings), 0.0) == pytest.approx(0.02 * rest_s)
 
 
 def test_standing_leg_has_no_ramp() -> None:
-    assert ramp_duration(CONFIG, standing_schedule(), 0) == 0.0
+    assert ramp_duration(CONFIG, standing_schedule(), 0, 0, 0.0) == 0.0
