@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from paper_figures.trial_claims import VARIANTS, survival, variant_claims
+from paper_figures.trial_claims import paper_stack, survival, variant_claims
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import COLUMN_WIDTH, GROUND, LEG_COLOURS, MEASURED, REFERENCE, paper_style
@@ -15,6 +15,7 @@ ARTEFACT = Artefact("G-F6", "Gehring 2017, Fig. 6", "Trot over an unperceived pl
 HEIGHT, PLACE = "scenario.terrain.0.height_m", "scenario.terrain.0.center_x_m"
 LEG_LENGTH_M = 0.564
 """Thigh and shank of ANYmal B."""
+RECOVERS = "recovers; height not printed"
 NEEDED = {0.08: 10, 0.10: 8}
 """How many of ten places count as good, by height in [m]."""
 
@@ -57,9 +58,9 @@ def claims(results: StudyResults) -> list[Claim]:
     reference = table[table["variant"] == "reference"]
     heights = [
         survival(
-            f"trots over a plank of {100 * height:.0f} cm, {estimator}",
+            f"trots over a plank of {100 * height:.0f} cm with our priorities, {estimator}",
             reference[np.isclose(reference[HEIGHT], height) & (reference["estimator"] == estimator)],
-            "recovers; height not printed",
+            RECOVERS,
             needed,
             "The arc of the swing is 12 cm high; falls were not diagnosed place by place.",
         )
@@ -72,6 +73,7 @@ def claims(results: StudyResults) -> list[Claim]:
     same = table[np.isclose(table[HEIGHT], 0.08) & table[PLACE].isin([0.55, 0.60, 0.65, 0.70, 0.75])]
     return [
         *heights,
+        paper_stack(same, RECOVERS, "trots over a plank of 8 cm"),
         Claim("highest plank that is passed at every place tried, ekf", "not printed", ours, Verdict.NEW),
-        *variant_claims(same, "variant", VARIANTS, "8 cm"),
+        *variant_claims(same, "8 cm"),
     ]
