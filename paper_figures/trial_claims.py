@@ -48,7 +48,7 @@ def survival(text: str, rows: pd.DataFrame, paper: str, needed: int | None = Non
 
 
 def paper_stack(rows: pd.DataFrame, paper: str, what: str = "stays up") -> Claim:
-    """Return what became of those of ``rows`` with the priorities of the paper, beside what the paper reports of them."""
+    """Return what became of those of ``rows`` with the priorities of the paper, beside what it reports."""
     chosen = rows[rows["variant"] == PAPER_STACK]
     return survival(f"{what} {VARIANTS[PAPER_STACK]}", chosen, paper, why=PAPER_STACK_WHY)
 

@@ -73,7 +73,7 @@ def planned_y(plan: MotionPlan, trace: pd.DataFrame) -> Array:
 
 
 def unloading(trace: pd.DataFrame, push_s: float) -> tuple[float, float]:
-    """Return how long in [s] the left hind foot bears next to nothing where it stands by plan, and how far it lifts in [m].
+    """Return how long the left hind foot bears next to nothing in a planned stance, in [s], and how it lifts, in [m].
 
     Args:
         trace: of the pushed trial.

@@ -100,6 +100,11 @@ def test_code_without_trials_is_that_of_the_table() -> None:
     assert code_state({"commits": {}, "git": None}) == "commit unknown"
 
 
+def test_changed_files_are_said() -> None:
+    manifest = {"commits": {"1234567890ab": 2}, "git": {"commit": "fedcba98765432", "dirty": True}}
+    assert code_state(manifest) == "commit 1234567890, with local changes"
+
+
 def test_tally_counts_verdicts_best_first(results: StudyResults) -> None:
     assert tally(Judged(_script(), tuple(CLAIMS))) == "2 reproduced, 1 partly"
 
