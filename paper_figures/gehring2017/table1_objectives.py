@@ -96,7 +96,8 @@ def _ratios(motion: str, rows: pd.DataFrame) -> Claim:
     printed = rows[rows["paper"] > 0.0].set_index("objective")
     ratio = printed["cost"] / printed["paper"]
     close = int(ratio.between(1.0 / CLOSE, CLOSE).sum())
-    ends = (f"{float(ratio[name]):.2g} ({PRINTED[str(name)][0].lower()})" for name in (ratio.idxmin(), ratio.idxmax()))
+    names = (str(ratio.idxmin()), str(ratio.idxmax()))
+    ends = (f"{float(ratio[name]):.2g} ({PRINTED[name][0].lower()})" for name in names)
     ours = f"{' to '.join(ends)}, {close} of {len(ratio)} within a factor of {CLOSE:g}"
     found = verdict(holds=close == len(ratio), partly=close > 0)
     return Claim(f"{motion}: cost here / cost in the paper, by objective", "1", ours, found, WHY[motion])
