@@ -10,7 +10,14 @@ from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import COLUMN_WIDTH, MEASURED, REFERENCE, SERIES, paper_style
 
 STUDY = "bellicoso2016_com_tracking"
-ARTEFACT = Artefact("B-F4", "Bellicoso 2016, Fig. 4", "Tracking of the centre of mass over a ZMP walk", (STUDY,))
+CAPTION = (
+    "ZMP walk on level ground with the priorities of the paper, start at rest. Above: CoM as the controller "
+    "believes it, estimator ekf, seed 0. Wide blue: desired, dashed: measured. Below: error in x-y as the "
+    "controller believes it, with both estimators; dotted: bound of the paper."
+)
+ARTEFACT = Artefact(
+    "B-F4", "Bellicoso 2016, Fig. 4", "Tracking of the centre of mass over a ZMP walk", (STUDY,), CAPTION
+)
 BOUND_MM = 3.4
 """Upper bound of the position error in the paper."""
 PAPER = "3.4 mm, axes not printed"

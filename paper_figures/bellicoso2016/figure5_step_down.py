@@ -17,7 +17,14 @@ from quadlab.robots.legs import LEGS
 from quadlab.studies.config import load_study
 
 STUDY = "bellicoso2016_step_down"
-ARTEFACT = Artefact("B-F56", "Bellicoso 2016, Fig. 5 and 6", "An unperceived step down of 14 cm", (STUDY,))
+CAPTION = (
+    "Walk, 0.25 m a stride, down a 14 cm step at x = 1 m with the priorities of the paper; estimator ekf, seed 0, "
+    "nominal start. Left and pictures: with limb limits; right: without, until it falls at the end of the curves, "
+    "angles cut off there. Wide blue: desired; dashed: measured; dotted: limit of the height of a hip over its "
+    "foot. Settings of this scenario: apex of the swing 0.19 of the standing height, search begins at 0.8 of the "
+    "swing with 0.5 m/s, the plan waits meanwhile, the desired torso stays level."
+)
+ARTEFACT = Artefact("B-F56", "Bellicoso 2016, Fig. 5 and 6", "An unperceived step down of 14 cm", (STUDY,), CAPTION)
 TRACES = {"with limb limits": "with_limits", "without": "without_limits"}
 PICTURES = 6
 LABELS = ("base height [m]", "angle [deg]", "hip over foot [m]", "foot height [m]")

@@ -10,7 +10,11 @@ from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import COLUMN_WIDTH, SERIES, paper_style
 
 STUDY = "gehring2017_table1"
-ARTEFACT = Artefact("G-F4", "Gehring 2017, Fig. 4", "Objective over the iterations of the SQP", (STUDY,))
+CAPTION = (
+    "Sum of all objectives of the first guess (iteration 0) and after each step of the SQP, logarithmic; walk, "
+    "trot and transition of Table I, from standing, without stances before and after."
+)
+ARTEFACT = Artefact("G-F4", "Gehring 2017, Fig. 4", "Objective over the iterations of the SQP", (STUDY,), CAPTION)
 PAPER_PROCESSOR = "Intel Core i5-5300U, 2.3 GHz, two cores"
 PAPER_ITERATIONS, PAPER_SECONDS = 6, (6.0, 8.0)
 CONVERGED = 0.01

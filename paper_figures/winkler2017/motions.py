@@ -13,7 +13,11 @@ from quadlab.plotting.style import paper_style
 from quadlab.plotting.table_figure import TableText, table_figure
 
 STUDY, PLANS = "winkler2017_motions", "winkler2017_table1"
-ARTEFACT = Artefact("W-X3", "Winkler 2017, video", "Limp, transitions, pace, bound and pushes", (STUDY, PLANS))
+CAPTION = (
+    "HyQ in closed loop, nominal and perturbed starts, estimators ekf and truth together; CoM error: largest of "
+    "the trials that stay up. The paper shows these motions as plans; its robot walks and trots only."
+)
+ARTEFACT = Artefact("W-X3", "Winkler 2017, video", "Limp, transitions, pace, bound and pushes", (STUDY, PLANS), CAPTION)
 SHOWN = "planned motion shown"
 FOLLOWED_MM = 100.0
 """Farther off the plan than that, a robot that stays up has stumbled."""

@@ -15,7 +15,12 @@ from quadlab.plotting.placed_plan import in_plan_frame
 from quadlab.plotting.style import COP, GROUND, MEASURED, TEXT_WIDTH, paper_style
 
 STUDY = "winkler2017_robustness"
-ARTEFACT = Artefact("W-X2", "Winkler 2017, V-A.1", "Walk with and without the robustness cost", (STUDY,))
+CAPTION = (
+    "Plans of a walk of HyQ, eight steps over 0.5 m in the rhythm of Table I, from above and distance of the CoP "
+    "to the edge of the support over time, by cost. Without its cost, the CoM of the paper goes straight, as it "
+    "does here with the cost of CoM accelerations. Black: CoM, red: CoP, areas: support."
+)
+ARTEFACT = Artefact("W-X2", "Winkler 2017, V-A.1", "Walk with and without the robustness cost", (STUDY,), CAPTION)
 COSTS = {"robustness": "robustness cost", "acceleration": "CoM acceleration instead", "none": "no cost"}
 CONTROLLERS = {
     "projected_inverse_dynamics": "controller of the paper",
