@@ -43,14 +43,11 @@ def draw(results: StudyResults) -> Figure:
 
 def moment(trace: pd.DataFrame, time_s: float) -> str:
     """Return which legs touch down at ``time_s`` in [s] by plan, or else which are in the air, e.g. "apex LF"."""
-    stands = trace[[f"control.planned_contact_{leg}" for leg in LEGS]].set_axis(LEGS, axis=1) > 0.0
-    before, after = (stands.iloc[stands.index.get_indexer([time], method="nearest")[0]] for time in _around(time_s))
-    landed, swing = after & ~before, ~after
-    return f"touch-down {' '.join(landed[landed].index)}" if landed.any() else f"apex {' '.join(swing[swing].index)}"
-
-
-def _around(time_s: float) -> tuple[float, float]:
-    return time_s - AROUND_S, time_s + AROUND_S
+    columns = [f"control.planned_contact_{leg}" for leg in LEGS]
+    places = [int(np.argmin(np.abs(trace.index - time))) for time in (time_s - AROUND_S, time_s + AROUND_S)]
+    before, after = trace[columns].to_numpy()[places] > 0.0
+    landed, swinging = (" ".join(np.array(LEGS)[flags]) for flags in (after & ~before, ~after))
+    return f"touch-down {landed}" if landed else f"apex {swinging}"
 
 
 def snapshot_times() -> tuple[float, ...]:

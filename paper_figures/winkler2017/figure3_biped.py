@@ -31,7 +31,7 @@ SHOWN_S = 0.7
 def draw(results: StudyResults) -> Figure:
     """Return feet, the hulls of both feet in double support, CoM and CoP from above."""
     plan = results.plan(STUDY, "biped")
-    figure = Figure(figsize=(COLUMN_WIDTH, 2.8), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 2.95), layout="constrained")
     axes = figure.subplots()
     for number, corners in enumerate(double_supports(plan)):
         hull, label = corners[ConvexHull(corners).vertices], "" if number else "support on both feet"
