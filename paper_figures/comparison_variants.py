@@ -11,6 +11,6 @@ COLOURS = {"kinematic_sqp": "#0072b2", "vertex_zmp": "#d55e00"}
 DASHES = {"hierarchical": "-", "weighted": "--"}
 
 
-def artefact(part: str, title: str) -> Artefact:
+def artefact(part: str, title: str, caption: str) -> Artefact:
     """Return the description of one figure of the comparison, of which ``part`` tells it from the others."""
-    return Artefact(f"X-S1 {part}", "comparison", title, (STUDY,))
+    return Artefact(f"X-S1 {part}", "comparison", title, (STUDY,), caption)

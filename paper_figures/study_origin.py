@@ -60,17 +60,27 @@ def _origin(study: str, manifest: dict[str, Any]) -> Origin:
 
 
 def code_state(manifest: dict[str, Any]) -> str:
-    """Return which commits ran the jobs, e.g. "commit 8220b05d52", with their number of jobs if there are several.
+    """Return which commits ran the jobs, e.g. "commit 8220b05d52", and whether files differed from them.
 
-    Jobs that run no trial remember no commit; theirs is the one at which the table was written.
+    Several commits stand with their numbers of jobs. Jobs that run no trial remember no commit; theirs is the one at
+    which the table was written.
     """
-    commits: dict[str, int] = manifest["commits"]
-    git = manifest["git"]
-    if not commits:
-        return f"commit {git['commit'][:HASH_LENGTH]}" if git else "commit unknown"
+    git = manifest["git"] or {}
+    changes = ", with local changes" if git.get("dirty") else ""
+    return _commits(manifest["commits"] or {git.get("commit", "unknown"): manifest.get("jobs", 0)}) + changes
+
+
+def _commits(commits: dict[str, int]) -> str:
     if len(commits) == 1:
         return f"commit {next(iter(commits))[:HASH_LENGTH]}"
     return "commits " + ", ".join(f"{commit[:HASH_LENGTH]} ({jobs} jobs)" for commit, jobs in commits.items())
+
+
+def processor(study: str, results: StudyResults) -> str:
+    """Return the processor on which a study ran, as its manifest names it."""
+    path = results.folder / study / "manifest.json"
+    model = json.loads(path.read_text("utf-8"))["cpu"]["model"] if path.is_file() else None
+    return model or "unknown processor"
 
 
 def _pairs(values: dict[str, str], between: str) -> str:

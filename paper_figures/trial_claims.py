@@ -6,6 +6,12 @@ from quadlab.analysis.artefact import Claim, Verdict, verdict
 from quadlab.studies.report import success_share
 
 COMPLETED = "completed"
+PAPER_STACK = "stack of the paper"
+"""Level of the factor ``variant`` whose controller has the priorities that the paper prints."""
+PAPER_STACK_WHY = (
+    "Neither the gains of the drives that move the paper's swing legs nor the size of the disturbance are printed; the "
+    "preset has a joint PD in their place. Why it falls was not isolated."
+)
 SILENT = ("-", "not printed", "not measured")
 """What stands in place of the paper's value where it has none."""
 VARIANTS = {
@@ -14,7 +20,7 @@ VARIANTS = {
     "alignment feet": "with feet-centred alignment alone",
     "no foothold feedback": "without foothold feedback",
     "capture point ignored": "with lift-offs and swings as planned, wherever the capture point is",
-    "stack of the paper": "with the priorities of the paper",
+    PAPER_STACK: "with the priorities of the paper",
 }
 """Levels of the factor ``variant`` beside "reference": one part of the controller changed."""
 
@@ -41,6 +47,12 @@ def survival(text: str, rows: pd.DataFrame, paper: str, needed: int | None = Non
     return Claim(text, paper, share(rows), judged(paper, holds=holds, partly=good > 0), "" if holds else why)
 
 
+def paper_stack(rows: pd.DataFrame, paper: str, what: str = "stays up") -> Claim:
+    """Return what became of those of ``rows`` with the priorities of the paper, beside what it reports."""
+    chosen = rows[rows["variant"] == PAPER_STACK]
+    return survival(f"{what} {VARIANTS[PAPER_STACK]}", chosen, paper, why=PAPER_STACK_WHY)
+
+
 def at_most(text: str, rows: pd.DataFrame, column: str, limit: float, unit: str, *, paper: str, why: str = "") -> Claim:
     """Return the claim that ``column`` stays below ``limit`` in every completed trial of ``rows``."""
     values = completed(rows)[column]
@@ -50,11 +62,11 @@ def at_most(text: str, rows: pd.DataFrame, column: str, limit: float, unit: str,
     return Claim(text, paper, ours, judged(paper, holds=holds, partly=median <= limit), "" if holds else why)
 
 
-def variant_claims(rows: pd.DataFrame, column: str, names: dict[str, str], what: str = "stays up") -> list[Claim]:
-    """Return one claim a variant that was tried, a level of ``column``: what became of it; no paper says it."""
-    tried = set(rows[column])
+def variant_claims(rows: pd.DataFrame, what: str = "stays up") -> list[Claim]:
+    """Return one claim a variant of our controller that was tried: what became of it; no paper says it."""
+    tried = set(rows["variant"]) - {PAPER_STACK}
     return [
-        Claim(f"{what} {text}", "not printed", share(rows[rows[column] == level]), Verdict.NEW)
-        for level, text in names.items()
+        Claim(f"{what} {text}", "not printed", share(rows[rows["variant"] == level]), Verdict.NEW)
+        for level, text in VARIANTS.items()
         if level in tried
     ]

@@ -12,7 +12,12 @@ from quadlab.plotting.style import COLUMN_WIDTH, NEUTRAL, SERIES, paper_style
 from quadlab.robots.catalogue import robot_config
 
 STUDY = "bellicoso2016_manipulability"
-ARTEFACT = Artefact("B-X1", "Bellicoso 2016, Eq. 22-24", "Body height emerging from manipulability", (STUDY,))
+CAPTION = (
+    "Standing and walking with the base height left to the manipulability of the legs, ANYmal B, estimator ekf, "
+    "seed 0. Heights are those of the simulated base. (a) From a high, the nominal and a low stance. (b) The same "
+    "trials, manipulability over height; dots: ends. (c) A walk, beside the same walk at constant height."
+)
+ARTEFACT = Artefact("B-X1", "Bellicoso 2016, Eq. 22-24", "Body height emerging from manipulability", (STUDY,), CAPTION)
 STARTS = {"high": SERIES[2], "nominal": SERIES[0], "low": SERIES[1]}
 HEIGHTS = {"manipulability": SERIES[3], "constant": NEUTRAL}
 BEST_SHARE, PARTLY_SHARE = 0.99, 0.9

@@ -3,6 +3,7 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
+from paper_figures.gehring2017.table1_objectives import shipped_config
 from paper_figures.trial_claims import completed, survival
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
@@ -12,7 +13,13 @@ from quadlab.plotting.style import paper_style
 from quadlab.robots.legs import LEGS
 
 STUDY, PLAN = "gehring2017_trot", "gehring2017_trot_plan"
-ARTEFACT = Artefact("G-F1", "Gehring 2017, Fig. 1", "A trot plan in space", (PLAN, STUDY))
+CAPTION = (
+    "The plan of the kinematic planner for two cycles of a trot, 0.8 s each, with 0.6 s of standing before and "
+    "after. Squares on the ground: initial stance; circles: footholds; arcs: swings, as high as the clearance of "
+    "the planner (7 cm, not printed in the paper). Thick line: CoM in the colour of the leg that swings; black "
+    "squares: base, with lines to the feet that stand. Dots: CoP."
+)
+ARTEFACT = Artefact("G-F1", "Gehring 2017, Fig. 1", "A trot plan in space", (PLAN, STUDY), CAPTION)
 SPEED = 0.03
 """Share by which the speed may be off."""
 HEIGHT_MM, TILT_DEG, TORQUE_NM = 3.0, 0.7, 40.0
@@ -21,7 +28,7 @@ HEIGHT_MM, TILT_DEG, TORQUE_NM = 3.0, 0.7, 40.0
 @paper_style()
 def draw(results: StudyResults) -> Figure:
     """Return feet, CoM and base of the plan in a 3-D view."""
-    return plan_space_figure(results.plan(PLAN, "trot"))
+    return plan_space_figure(results.plan(PLAN, "trot"), shipped_config().clearance_m)
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:
@@ -42,7 +49,7 @@ def claims(results: StudyResults) -> list[Claim]:
     rows = completed(table[table["controller"] == "hierarchical"])
     stacks = {"hierarchical": "our priorities", "gehring2017": "the priorities of the paper"}
     falls = [
-        survival(f"trots 10 s with {stacks[str(stack)]}, {estimator}", group, "not printed")
+        survival(f"trots 10 s with {stacks[str(stack)]}, {estimator}", group, "moves forward")
         for (stack, estimator), group in table.groupby(["controller", "estimator"], sort=False)
     ]
     drawn = results.plan(PLAN, "trot").verdict

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from quadlab.analysis.artefact import Artefact, Claim, verdict
+from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.controllers.tracking.alignment import (
     PlanarPose,
@@ -14,13 +14,22 @@ from quadlab.controllers.tracking.alignment import (
     feet_alignment,
     identity_alignment,
 )
-from quadlab.geometry.rotations import Array
+from quadlab.geometry.rotations import Array, wrap_angle
 from quadlab.planners.plan import MotionPlan
 from quadlab.plotting.style import MEASURED, NEUTRAL, SERIES, TEXT_WIDTH, paper_style
 from quadlab.robots.legs import LEGS
 
 STUDY = "gehring2017_walk_push"
-ARTEFACT = Artefact("G-F2", "Gehring 2017, Fig. 2", "Alignment of a plan with a robot that was pushed", (STUDY,))
+CAPTION = (
+    "A walk 0.25 s after a push to the right of 160 N for 0.15 s (0.79 m/s); estimator ekf, seed 1, perturbed "
+    "start. Open circles and plus: measured feet and CoM. Dots and crosses: feet and CoM of the plan, coloured by "
+    "the way it is laid: as it was made (grey), upon position and yaw of the base (orange), upon the feet "
+    "(green); mixed: feet of the plan base-centred, CoM feet-centred, as the controller does."
+)
+ARTEFACT = Artefact(
+    "G-F2", "Gehring 2017, Fig. 2", "Alignment of a plan with a robot that was pushed", (STUDY,), CAPTION
+)
+DRAWN = "drawing, no measurement"
 BY_DEFINITION = "That is how this alignment is defined; the picture is what is new."
 AFTER_PUSH_S = 0.25
 """Time of the picture after the end of the push."""
@@ -32,18 +41,21 @@ class Moment:
 
     Attributes:
         com, feet: measured in the world, (2,) and (4, 2) in [m].
-        planned_com, planned_feet: in the plan frame.
+        yaw: heading of the base in the world in [rad].
+        planned_com, planned_feet, planned_yaw: in the plan frame.
     """
 
     com: Array
     feet: Array
+    yaw: float
     planned_com: Array
     planned_feet: Array
+    planned_yaw: float
 
     def alignments(self) -> dict[str, PlanarPose]:
         """Return the ways to lay the plan; the mixed one takes the torso feet-centred, swing feet base-centred."""
         feet = feet_alignment(self.planned_feet, self.feet)
-        base = base_alignment(self.planned_com, 0.0, self.com, feet.yaw)
+        base = base_alignment(self.planned_com, self.planned_yaw, self.com, self.yaw)
         return {"unaligned": identity_alignment(), "base-centred": base, "feet-centred": feet}
 
 
@@ -80,7 +92,9 @@ def moment(results: StudyResults) -> Moment:
     row = trace.iloc[int(np.argmin(np.abs(trace.index - time_s)))]
     feet = np.array([[row[f"control.foot_position_{leg}_{axis}"] for axis in "xy"] for leg in LEGS])
     com = np.array([row["control.com_x"], row["control.com_y"]])
-    return Moment(com, feet, plan.com(time_s)[:2], planned_feet(plan, time_s))
+    planned = plan.at(time_s)
+    yaw = float(row["control.base_yaw"])
+    return Moment(com, feet, yaw, planned.com_position[:2], planned_feet(plan, time_s), planned.yaw)
 
 
 def planned_feet(plan: MotionPlan, time_s: float) -> Array:
@@ -90,7 +104,7 @@ def planned_feet(plan: MotionPlan, time_s: float) -> Array:
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:
-    """Return how far the plan's CoM and feet are from the robot's by way of alignment, in [mm]."""
+    """Return how far CoM, feet and yaw of the plan are from the robot's, by way of alignment."""
     now = moment(results)
     rows = []
     for name, pose in now.alignments().items():
@@ -98,8 +112,9 @@ def numbers(results: StudyResults) -> pd.DataFrame:
         feet = np.linalg.norm(
             np.mean([pose.position(foot) for foot in now.planned_feet], axis=0) - now.feet.mean(axis=0)
         )
-        rows.append((name, 1e3 * com, 1e3 * feet))
-    return pd.DataFrame(rows, columns=["alignment", "com_off_mm", "mean_foot_off_mm"])
+        yaw = np.degrees(wrap_angle(pose.yaw + now.planned_yaw - now.yaw))
+        rows.append((name, 1e3 * com, 1e3 * feet, yaw))
+    return pd.DataFrame(rows, columns=["alignment", "com_off_mm", "mean_foot_off_mm", "yaw_off_deg"])
 
 
 def claims(results: StudyResults) -> list[Claim]:
@@ -108,8 +123,18 @@ def claims(results: StudyResults) -> list[Claim]:
     base, feet = (float(table["com_off_mm"].loc["base-centred"]), float(table["mean_foot_off_mm"].loc["feet-centred"]))
     off = float(table["com_off_mm"].loc["unaligned"])
     return [
-        Claim("base-centred: planned and measured base coincide", "yes", f"{base:.2g} mm apart, {off:.0f} mm unaligned",
-              verdict(holds=base < 0.1), BY_DEFINITION),
-        Claim("feet-centred: means of planned and measured feet coincide", "yes", f"{feet:.2g} mm apart",
-              verdict(holds=feet < 0.1), BY_DEFINITION),
-    ]  # fmt: skip
+        Claim(
+            "base-centred: planned and measured base coincide",
+            DRAWN,
+            f"{base:.2g} mm apart, {off:.0f} mm unaligned",
+            Verdict.NEW,
+            BY_DEFINITION,
+        ),
+        Claim(
+            "feet-centred: means of planned and measured feet coincide",
+            DRAWN,
+            f"{feet:.2g} mm apart",
+            Verdict.NEW,
+            BY_DEFINITION,
+        ),
+    ]

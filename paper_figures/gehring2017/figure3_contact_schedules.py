@@ -18,7 +18,8 @@ from quadlab.paths import CONF_DIR
 from quadlab.plotting.style import COLUMN_WIDTH, paper_style
 from quadlab.robots.legs import LEGS
 
-ARTEFACT = Artefact("G-F3", "Gehring 2017, Fig. 3", "Contact schedules of the experiments", ())
+CAPTION = "One row a leg, one column a sample; dark: the leg stands. Read from the configuration, nothing is simulated."
+ARTEFACT = Artefact("G-F3", "Gehring 2017, Fig. 3", "Contact schedules of the experiments", (), CAPTION)
 PANELS = (("a", "lateral walk", "walk"), ("b", "trot", "trot"), ("c", "walk to trot", "walk_to_trot_cycles"))
 
 

@@ -4,17 +4,24 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from paper_figures.trial_claims import VARIANTS, survival, variant_claims
+from paper_figures.trial_claims import paper_stack, survival, variant_claims
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
-from quadlab.plotting.style import COLUMN_WIDTH, GROUND, LEG_COLOURS, MEASURED, REFERENCE, paper_style
+from quadlab.plotting.style import COLUMN_WIDTH, MEASURED, REFERENCE, SERIES, paper_style
 from quadlab.robots.legs import LEGS
 
 STUDY = "gehring2017_trot_plank"
-ARTEFACT = Artefact("G-F6", "Gehring 2017, Fig. 6", "Trot over an unperceived plank", (STUDY,))
+CAPTION = (
+    "Trot, 0.8 s and 0.25 m a stride, over a plank 8 cm high and 20 cm deep with its middle at x = 0.65 m; our "
+    "priorities, estimator ekf, seed 0, nominal start. Wide blue: desired, for feet while they swing; dashed: "
+    "measured; dotted: height of the plank."
+)
+ARTEFACT = Artefact("G-F6", "Gehring 2017, Fig. 6", "Trot over an unperceived plank", (STUDY,), CAPTION)
 HEIGHT, PLACE = "scenario.terrain.0.height_m", "scenario.terrain.0.center_x_m"
 LEG_LENGTH_M = 0.564
 """Thigh and shank of ANYmal B."""
+PLANK = SERIES[2]
+RECOVERS = "recovers; height not printed"
 NEEDED = {0.08: 10, 0.10: 8}
 """How many of ten places count as good, by height in [m]."""
 
@@ -25,17 +32,19 @@ def draw(results: StudyResults) -> Figure:
     table = numbers(results)
     figure = Figure(figsize=(COLUMN_WIDTH, 3.4), layout="constrained")
     for_pitch, *for_feet = figure.subplots(3, 1, sharex=True)
+    for_feet[1].sharey(for_feet[0])
     for_pitch.plot(table["time_s"], table["pitch_reference_deg"], color=REFERENCE, linewidth=2.0, label="desired")
     for_pitch.plot(table["time_s"], table["pitch_deg"], "--", color=MEASURED, label="measured")
     for_pitch.set_ylabel("pitch [deg]")
-    for_pitch.legend(loc="upper left", ncols=2)
     for axes, leg in zip(for_feet, ("LF", "RF"), strict=True):
         axes.plot(table["time_s"], table[f"{leg}_z_reference_m"], color=REFERENCE, linewidth=2.0)
-        axes.plot(table["time_s"], table[f"{leg}_z_m"], "--", color=LEG_COLOURS[LEGS.index(leg)])
-        axes.axhline(0.08, color=GROUND, linestyle=":", label="height of the plank")
+        axes.plot(table["time_s"], table[f"{leg}_z_m"], "--", color=MEASURED)
+        axes.axhline(0.08, color=PLANK, linestyle=":", label="height of the plank")
         axes.set_ylabel(f"{leg} height [m]")
-    for_feet[0].legend(loc="upper right")
+    handles = [*for_pitch.get_legend_handles_labels()[0], *for_feet[0].get_legend_handles_labels()[0]]
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     for_feet[-1].set_xlabel("time [s]")
+    figure.align_ylabels()
     return figure
 
 
@@ -57,9 +66,9 @@ def claims(results: StudyResults) -> list[Claim]:
     reference = table[table["variant"] == "reference"]
     heights = [
         survival(
-            f"trots over a plank of {100 * height:.0f} cm, {estimator}",
+            f"trots over a plank of {100 * height:.0f} cm with our priorities, {estimator}",
             reference[np.isclose(reference[HEIGHT], height) & (reference["estimator"] == estimator)],
-            "recovers; height not printed",
+            RECOVERS,
             needed,
             "The arc of the swing is 12 cm high; falls were not diagnosed place by place.",
         )
@@ -72,6 +81,7 @@ def claims(results: StudyResults) -> list[Claim]:
     same = table[np.isclose(table[HEIGHT], 0.08) & table[PLACE].isin([0.55, 0.60, 0.65, 0.70, 0.75])]
     return [
         *heights,
+        paper_stack(same, RECOVERS, "trots over a plank of 8 cm"),
         Claim("highest plank that is passed at every place tried, ekf", "not printed", ours, Verdict.NEW),
-        *variant_claims(same, "variant", VARIANTS, "8 cm"),
+        *variant_claims(same, "8 cm"),
     ]

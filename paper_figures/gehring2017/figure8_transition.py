@@ -13,8 +13,14 @@ from quadlab.robots.legs import LEGS
 from quadlab.studies.config import load_study
 
 STUDY = "gehring2017_transition"
-ARTEFACT = Artefact("G-F8", "Gehring 2017, Fig. 8", "Transition from walk to trot", (STUDY,))
+CAPTION = (
+    "From a walk of 4 s to two strides of a trot of 0.8 s; our priorities, estimator ekf, seed 0, nominal start. "
+    "Above each picture its time and which legs are at the apex of their swing or touch down, by plan."
+)
+ARTEFACT = Artefact("G-F8", "Gehring 2017, Fig. 8", "Transition from walk to trot", (STUDY,), CAPTION)
 COLUMNS = 4
+AROUND_S = 0.04
+"""A foot that lands by plan within that time of a picture touches down in it."""
 COM_BOUND_MM = 12.0
 
 
@@ -22,7 +28,7 @@ COM_BOUND_MM = 12.0
 def draw(results: StudyResults) -> Figure:
     """Return the pictures in the order of time."""
     pictures = results.snapshots(STUDY, "transition")
-    times = snapshot_times()
+    times, trace = snapshot_times(), results.trace(STUDY, "transition")
     rows = -(-len(pictures) // COLUMNS)
     figure = Figure(figsize=(TEXT_WIDTH, 1.35 * rows), layout="constrained")
     for axes in figure.subplots(rows, COLUMNS, squeeze=False).flat:
@@ -31,8 +37,17 @@ def draw(results: StudyResults) -> Figure:
         picture = imread(path)
         height, width = picture.shape[:2]
         axes.imshow(picture[int(0.15 * height) : int(0.8 * height), int(0.2 * width) : int(0.9 * width)])
-        axes.set_title(f"{number}: {time_s:.3g} s", fontsize=6.5)
+        axes.set_title(f"{number}: {time_s:.6g} s, {moment(trace, time_s)}", fontsize=6.5)
     return figure
+
+
+def moment(trace: pd.DataFrame, time_s: float) -> str:
+    """Return which legs touch down at ``time_s`` in [s] by plan, or else which are in the air, e.g. "apex LF"."""
+    columns = [f"control.planned_contact_{leg}" for leg in LEGS]
+    places = [int(np.argmin(np.abs(trace.index - time))) for time in (time_s - AROUND_S, time_s + AROUND_S)]
+    before, after = trace[columns].to_numpy()[places] > 0.0
+    landed, swinging = (" ".join(np.array(LEGS)[flags]) for flags in (after & ~before, ~after))
+    return f"touch-down {landed}" if landed else f"apex {swinging}"
 
 
 def snapshot_times() -> tuple[float, ...]:

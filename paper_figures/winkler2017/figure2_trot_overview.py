@@ -17,7 +17,12 @@ from quadlab.plotting.style import COP, LEG_COLOURS, MEASURED, NEUTRAL, SERIES, 
 from quadlab.robots.legs import LEGS
 
 STUDY = "winkler2017_table1"
-ARTEFACT = Artefact("W-F2", "Winkler 2017, Fig. 2", "The trot problem over time", (STUDY,))
+CAPTION = (
+    "Plan of the trot of Table I, 16 steps over 1 m, x over time. Grey areas: range of motion of the fore and "
+    "hind feet; green: support; coloured bars: feet where they stand; below: which leg stands when. Nothing is "
+    "simulated."
+)
+ARTEFACT = Artefact("W-F2", "Winkler 2017, Fig. 2", "The trot problem over time", (STUDY,), CAPTION)
 PERIOD_S = 0.02
 FORE, HIND = 0, 2
 """Legs whose range of motion is drawn: in the direction of travel the one beside has the same."""

@@ -15,7 +15,12 @@ from quadlab.planners.vertex_zmp.biped import RECTANGULAR_FOOT, biped_model
 from quadlab.plotting.style import COLUMN_WIDTH, COP, GROUND, LEG_COLOURS, MEASURED, NEUTRAL, paper_style
 
 STUDY = "winkler2017_table1"
-ARTEFACT = Artefact("W-F3", "Winkler 2017, Fig. 3", "A biped with feet that have an area", (STUDY,))
+CAPTION = (
+    "Plan of a biped with rectangular feet from above. Outlines: feet in their stances; brown areas: support "
+    "while both feet stand; grey: range of motion of both feet at 0.7 s, where the dot is the CoM; red: CoP. "
+    "Nothing is simulated."
+)
+ARTEFACT = Artefact("W-F3", "Winkler 2017, Fig. 3", "A biped with feet that have an area", (STUDY,), CAPTION)
 FEET = ("left", "right")
 INSIDE_MM = 0.1
 SHOWN_S = 0.7
@@ -26,13 +31,13 @@ SHOWN_S = 0.7
 def draw(results: StudyResults) -> Figure:
     """Return feet, the hulls of both feet in double support, CoM and CoP from above."""
     plan = results.plan(STUDY, "biped")
-    figure = Figure(figsize=(COLUMN_WIDTH, 2.6), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 2.95), layout="constrained")
     axes = figure.subplots()
-    for corners in double_supports(plan):
-        hull = corners[ConvexHull(corners).vertices]
-        axes.add_patch(Polygon(hull, facecolor=GROUND, alpha=0.25, edgecolor="none"))
+    for number, corners in enumerate(double_supports(plan)):
+        hull, label = corners[ConvexHull(corners).vertices], "" if number else "support on both feet"
+        axes.add_patch(Polygon(hull, facecolor=GROUND, alpha=0.25, edgecolor="none", label=label))
     for foot in range(len(FEET)):
-        box, label = reach_box(plan, foot, SHOWN_S), "" if foot else "range of motion"
+        box, label = reach_box(plan, foot, SHOWN_S), "" if foot else f"range of motion at {SHOWN_S:g} s"
         axes.add_patch(Polygon(box, facecolor=NEUTRAL, alpha=0.25, edgecolor="none", label=label))
     for foot, (name, colour) in enumerate(zip(FEET, LEG_COLOURS, strict=False)):
         for number, corners in enumerate(foot_corners(plan, foot)):
@@ -40,10 +45,10 @@ def draw(results: StudyResults) -> Figure:
             axes.add_patch(Polygon(corners, fill=False, edgecolor=colour, linewidth=1.0, label=label))
     times = np.arange(0.0, plan.duration_s, 0.01)
     axes.plot(*np.array([plan.com(time)[:2] for time in times]).T, color=MEASURED, label="CoM")
-    axes.plot(*np.array([plan.cop(time) for time in times]).T, ".", color=COP, markersize=1.5, label="CoP")
-    axes.plot(*plan.com(SHOWN_S)[:2], "o", color=MEASURED, markersize=4.0)
+    axes.plot(*np.array([plan.cop(time) for time in times]).T, ".", color=COP, markersize=2.0, label="CoP")
+    axes.plot(*plan.com(SHOWN_S)[:2], "o", color=MEASURED, markersize=4.0, label=f"CoM at {SHOWN_S:g} s")
     axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
-    figure.legend(loc="outside upper center", ncols=3)
+    figure.legend(loc="outside upper center", ncols=2)
     return figure
 
 

@@ -11,7 +11,13 @@ from quadlab.plotting.style import TEXT_WIDTH, paper_style
 from quadlab.robots.legs import LEG_COUNT
 
 STUDY = "winkler2017_table1"
-ARTEFACT = Artefact("W-F5", "Winkler 2017, Fig. 5", "Walk, trot, pace and bound from above", (STUDY,))
+CAPTION = (
+    "Plans of Table I, 16 steps over 1 m, from above: (a) walk, (b) trot, (c) pace, (d) bound. Squares: initial "
+    "stance; circles: footholds; lines: CoM in the colour of the leg that swings, grey where all stand; red: CoP; "
+    "areas: support. The cost of the walk, even loads, leaves the footholds free, and the other gaits have no cost: "
+    "a plan may first go backwards. Nothing is simulated."
+)
+ARTEFACT = Artefact("W-F5", "Winkler 2017, Fig. 5", "Walk, trot, pace and bound from above", (STUDY,), CAPTION)
 GAITS = ("walk", "trot", "pace", "bound")
 INSIDE_MM = 0.1
 
@@ -20,10 +26,11 @@ INSIDE_MM = 0.1
 def draw(results: StudyResults) -> Figure:
     """Return one panel a gait: support areas, initial stance, footholds, CoM in the colour of the swing, and CoP."""
     figure = Figure(figsize=(TEXT_WIDTH, 3.5), layout="constrained")
-    for axes, gait in zip(figure.subplots(2, 2, sharex=True, sharey=True).flat, GAITS, strict=True):
+    panels = figure.subplots(2, 2, sharex=True, sharey=True).flat
+    for axes, letter, gait in zip(panels, "abcd", GAITS, strict=True):
         draw_placed_plan(axes, in_plan_frame(results.plan(STUDY, gait)))
         axes.set_aspect("equal")
-        axes.set_title(gait, loc="left")
+        axes.set_title(f"({letter}) {gait}", loc="left")
     for place in (2, 3):
         figure.axes[place].set_xlabel("x [m]")
     for place in (0, 2):

@@ -1,20 +1,29 @@
-"""Winkler 2017, V: HyQ walks and trots the plans of Table I, tracked by projected inverse dynamics."""
+"""Winkler 2017, V: HyQ walks and trots with schedules and distances of Table I, by projected inverse dynamics."""
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from paper_figures.trial_claims import at_most, survival
+from paper_figures.trial_claims import at_most, completed, survival
 from quadlab.analysis.artefact import Artefact, Claim
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import COP, MEASURED, REFERENCE, TEXT_WIDTH, paper_style
 
 STUDY = "winkler2017_tracking"
-ARTEFACT = Artefact("W-X1", "Winkler 2017, V", "HyQ follows the walk and the trot of Table I", (STUDY,))
+CAPTION = (
+    "HyQ with projected inverse dynamics at 250 Hz, 16 steps over 1 m with the schedules of Table I; estimator "
+    "truth, nominal start, nothing is random. The plans have 0.8 s (walk) or 0.6 s (trot) of standing before and "
+    "after and the default costs of the fast planner, which the plans of Table I have not. Wide blue: desired "
+    "CoM; dashed: measured CoM; red: desired CoP. Below: error of the CoM in x-y."
+)
+ARTEFACT = Artefact(
+    "W-X1", "Winkler 2017, V", "HyQ walks and trots as long and as far as in Table I", (STUDY,), CAPTION
+)
 GAITS = ("walk", "trot")
 COM_BOUND_MM = 5.0
 FALLS = "The falls were not diagnosed."
 PRINTED_HZ = 250
+STARTS = {"nominal": "the nominal start", "perturbed": "perturbed starts"}
 
 
 @paper_style()
@@ -29,10 +38,10 @@ def draw(results: StudyResults) -> Figure:
         above.plot(rows["reference_x_m"], rows["reference_y_m"], color=REFERENCE, linewidth=2.0, label="desired CoM")
         above.plot(rows["com_x_m"], rows["com_y_m"], "--", color=MEASURED, label="measured CoM")
         above.set(xlabel="x [m]", ylabel="y [m]")
-        above.set_title(f"{gait}, {PRINTED_HZ} Hz", loc="left")
+        above.set_title(f"{gait}, {PRINTED_HZ} Hz, true state, nominal start", loc="left")
         over_time.plot(rows["time_s"], rows["error_mm"], color=MEASURED)
         over_time.set(xlabel="time [s]", ylabel="CoM error [mm]", ylim=(0.0, None))
-    figure.axes[0].legend(loc="upper left", ncols=3, fontsize=6.0)
+    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
 
 
@@ -62,9 +71,8 @@ def claims(results: StudyResults) -> list[Claim]:
         found.append(
             survival(f"stays up: {name}", rows, "the real robot did" if rate == PRINTED_HZ else "-", why=FALLS)
         )
-        rest = rows[rows["start"] == "nominal"]
-        if (rest["status"] == "completed").any():
-            why = "The cause was not isolated."
-            text = f"CoM error from the nominal start: {name}"
-            found.append(at_most(text, rest, "com_error_max_mm", COM_BOUND_MM, "mm", paper="not printed", why=why))
+        for start, group in rows.groupby("start", sort=False):
+            if len(completed(group)):
+                text = f"CoM error from {STARTS[str(start)]}: {name}"
+                found.append(at_most(text, group, "com_error_max_mm", COM_BOUND_MM, "mm", paper="not printed"))
     return found

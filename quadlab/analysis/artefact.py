@@ -43,12 +43,14 @@ class Artefact:
         source: e.g. "Gehring 2017, Fig. 6".
         title: what it shows.
         studies: from which it is drawn.
+        caption: what is drawn, of which trial, and what lines and colours mean.
     """
 
     identifier: str
     source: str
     title: str
     studies: tuple[str, ...]
+    caption: str
 
 
 def overall(claims: Sequence[Claim]) -> Verdict:

@@ -1,9 +1,11 @@
 """A motion plan in space (the look of Gehring 2017, Fig. 1): feet, CoM, base and support over the ground."""
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 
 from quadlab.gaits.schedule import BoolArray
@@ -17,15 +19,18 @@ from quadlab.robots.legs import LEG_COUNT
 
 _HEIGHT = 4.2  # [in]
 _STATIONS = 9  # times at which base and legs are drawn
-_APEX = 0.06  # [m] drawn height of a swing; a plan of a point mass has footholds only
+_APEX = 0.07  # [m] drawn height of a swing unless it is given; a plan has footholds only
+_HUB: dict[str, Any] = {"ls": "", "marker": "s", "ms": 3.0, "color": MEASURED}
 _MARGIN = 0.05  # [m] round what is drawn
 
 
 @paper_style()
-def plan_space_figure(plan: MotionPlan) -> Figure:
+def plan_space_figure(plan: MotionPlan, apex_m: float = _APEX) -> Figure:
     """Return the plan in space: swings as arcs over the ground, CoM, CoP, support areas, and the base if it is planned.
 
-    The height of the arcs is that of the drawing, planners of a point mass do not plan it.
+    Args:
+        plan: to be drawn; it has no heights of swings.
+        apex_m: height of the arcs in [m].
     """
     placed = in_plan_frame(plan)
     figure = Figure((TEXT_WIDTH, _HEIGHT))
@@ -34,7 +39,7 @@ def plan_space_figure(plan: MotionPlan) -> Figure:
         corners = np.concatenate([support.corners, support.corners[:1]])
         axes.plot(*corners.T, 0.0, color=phase_colour(support.contacts), lw=0.5, alpha=0.4)
     for leg, colour in enumerate(LEG_COLOURS):
-        for arc in swing_arcs(plan, leg):
+        for arc in swing_arcs(plan, leg, apex_m):
             axes.plot(*arc.T, color=colour, lw=1.0)
         for marker, points in (("s", plan.footholds[leg][:1]), ("o", plan.footholds[leg][1:])):
             axes.plot(*points.T, ls="", marker=marker, mfc="w", ms=3.5, mew=0.8, color=colour)
@@ -44,12 +49,13 @@ def plan_space_figure(plan: MotionPlan) -> Figure:
     axes.plot(*placed.cop.T, 0.0, ls="", marker=".", ms=1.2, color=COP, mew=0)
     _draw_legs(axes, plan)
     _frame(axes, np.concatenate([com, *plan.footholds]))
-    figure.legend(handles=plan_view_legend(actual=False), loc="upper center", ncols=2 * LEG_COUNT)
+    handles = [*plan_view_legend(actual=False), *([Line2D([], [], **_HUB, label="base")] if plan.base else [])]
+    figure.legend(handles=handles, loc="upper center", ncols=2 * LEG_COUNT + 1)
     return figure
 
 
-def swing_arcs(plan: MotionPlan, leg: int) -> list[Array]:
-    """Return each swing of ``leg`` as points in space, (n, 3) in [m], from foothold to foothold."""
+def swing_arcs(plan: MotionPlan, leg: int, apex_m: float = _APEX) -> list[Array]:
+    """Return each swing of ``leg`` as points in space, (n, 3) in [m], from foothold to foothold, ``apex_m`` high."""
     arcs = []
     swings = plan.schedule.swings[leg]
     for number, swing in enumerate(swings):
@@ -58,7 +64,7 @@ def swing_arcs(plan: MotionPlan, leg: int) -> list[Array]:
         middle = np.full(len(times), 0.5 * (swing.start_s + swing.end_s))
         ground = foot_path(plan.footholds[leg], swings, Samples(times, middle))
         start, end = plan.footholds[leg][number : number + 2, 2]
-        height = start + fractions * (end - start) + 4.0 * _APEX * fractions * (1.0 - fractions)
+        height = start + fractions * (end - start) + 16.0 * apex_m * (fractions * (1.0 - fractions)) ** 2
         arcs.append(np.column_stack([ground, height]))
     return arcs
 
@@ -75,7 +81,7 @@ def _draw_legs(axes: Axes3D, plan: MotionPlan) -> None:
         hub = plan.com(time)
         if plan.base is not None:
             hub = np.array([np.interp(time, plan.base.times_s, values) for values in plan.base.positions.T])
-        axes.plot(*hub[:, None], ls="", marker="s", ms=3.0, color=MEASURED)
+        axes.plot(*hub[:, None], **_HUB)
         for leg in np.flatnonzero(plan.schedule.contacts_at(time)):
             foot = plan.footholds[leg][plan.schedule.swing_at(int(leg), float(time))[0]]
             axes.plot(*np.stack([hub, foot]).T, color=LEG_COLOURS[leg], lw=0.5, alpha=0.5)

@@ -72,6 +72,12 @@ def test_studies_of_an_artefact_exist(script: ArtefactScript) -> None:
     assert set(script.artefact.studies) <= set(study_names())
 
 
+@each_script
+def test_caption_is_a_sentence(script: ArtefactScript) -> None:
+    assert script.artefact.caption.endswith(".")
+    assert len(script.artefact.caption) > 80
+
+
 def test_every_table_and_figure_has_a_script() -> None:
     identifiers = [script.artefact.identifier for script in SCRIPTS]
     assert not WANTED - {identifier.split()[0] for identifier in identifiers}

@@ -10,7 +10,11 @@ LIMITS = pd.DataFrame(
     [("reference", 0, 1.8, 300.0), ("reference", 90, 1.8, 120.0), ("alignment none", 90, 1.8, None)],
     columns=["variant", "direction", START, "limit"],
 )
-TRIALS = pd.DataFrame([(SIZE, "completed"), (SIZE, "fell"), ("reference", "fell")], columns=["variant", "status"])
+TRIALS = pd.DataFrame(
+    [(SIZE, 0, 1.8, "completed"), (SIZE, 90, 1.8, "fell"), ("reference", 0, 1.8, "fell")],
+    columns=["variant", "direction", START, "status"],
+)
+STANDING = TRIALS.assign(status="completed")
 
 
 def test_push_that_fells_at_once_counts_as_zero() -> None:
@@ -28,9 +32,14 @@ def test_variant_stands_beside_the_reference_at_its_own_cases() -> None:
     ("needed", "why"), [((0.5, 1.0), ""), ((0.6, 1.0), "1 cases are below 0.6"), ((0.5, 2.0), "0 cases")]
 )
 def test_missing_the_aim_is_said(needed: tuple[float, float], why: str) -> None:
-    claim = limit_claims(LIMITS, TRIALS, needed, "trot")[0]
+    claim = limit_claims(LIMITS, STANDING, needed, "trot")[0]
     assert why in claim.why
     assert bool(claim.why) == bool(why)
+
+
+def test_falls_at_one_size_are_named_beside_the_minimum() -> None:
+    claim = limit_claims(LIMITS, TRIALS, (0.5, 1.0), "trot")[0]
+    assert "at 0.6 m/s it falls in 1 of 2 (90 deg at 1.8 s)" in claim.why
 
 
 def test_all_cases_at_one_size_stand_beside_the_largest_pushes() -> None:

@@ -36,7 +36,7 @@ MANIFEST = {
 
 
 def _script(studies: tuple[str, ...] = ()) -> ArtefactScript:
-    artefact = Artefact("G-F6", "Gehring 2017, Fig. 6", "A trot over a plank", studies)
+    artefact = Artefact("G-F6", "Gehring 2017, Fig. 6", "A trot over a plank", studies, "Heights <of> the feet.")
 
     def claims(results: StudyResults) -> list[Claim]:
         for study in studies:
@@ -61,6 +61,7 @@ def test_claims_stand_on_the_page_and_the_figure_in_it(results: StudyResults) ->
     assert 'src="data:image/png;base64,' in text
     assert "trots &lt;over&gt; it" in text
     assert "walks &amp; trots" in text
+    assert "G-F6: Heights &lt;of&gt; the feet." in text
     assert all(claim.ours in text and claim.why in text for claim in CLAIMS)
     assert "python experiments/reproduce.py paper=gehring2017 artefact=figure6" in text
 
@@ -98,6 +99,11 @@ def test_origin_of_a_study_is_told_in_full(results: StudyResults) -> None:
 def test_code_without_trials_is_that_of_the_table() -> None:
     assert code_state({"commits": {}, "git": {"commit": "fedcba98765432"}}) == "commit fedcba9876"
     assert code_state({"commits": {}, "git": None}) == "commit unknown"
+
+
+def test_changed_files_are_said() -> None:
+    manifest = {"commits": {"1234567890ab": 2}, "git": {"commit": "fedcba98765432", "dirty": True}}
+    assert code_state(manifest) == "commit 1234567890, with local changes"
 
 
 def test_tally_counts_verdicts_best_first(results: StudyResults) -> None:

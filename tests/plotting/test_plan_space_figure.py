@@ -22,6 +22,11 @@ def test_arcs_lead_from_foothold_to_foothold_over_the_ground(plan: MotionPlan) -
             assert (arc[1:-1, 2] > min(start[2], end[2])).all()
 
 
+def test_arcs_are_as_high_as_asked_for(plan: MotionPlan) -> None:
+    for arc in swing_arcs(plan, 0, 0.09):
+        assert np.isclose(arc[:, 2].max() - arc[0, 2], 0.09)
+
+
 def test_box_contains_com_and_footholds_undistorted(plan: MotionPlan) -> None:
     (axes,) = plan_space_figure(plan).axes
     limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])  # type: ignore[attr-defined]
