@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from quadlab.analysis.log_reader import read_log
 from quadlab.robots.catalogue import robot_names
 from quadlab.trials.compose import compose_trial
 from quadlab.trials.progress import SilentProgress
+from quadlab.trials.recording.topics import LOG_FILE
 from quadlab.trials.result import TrialResult, TrialStatus
 from quadlab.trials.runner import run_trial
 
@@ -93,3 +95,14 @@ def test_two_processes_give_the_same_trial(tmp_path: Path) -> None:
         hashes.append(TrialResult.model_validate_json(path.read_text()).state_sha256)
     assert hashes[0] is not None
     assert hashes[0] == hashes[1]
+
+
+@pytest.mark.parametrize(("reference", "moves_mm"), [("com", 0.0), ("base", 2.0)])
+def test_base_that_is_planned_is_followed_if_asked_for(reference: str, moves_mm: float, tmp_path: Path) -> None:
+    """The kinematic planner raises and lowers the base, a pendulum does not."""
+    torso = f"controller.tracking.torso.reference={reference}"
+    result = run(tmp_path, "gait=trot", "planner=kinematic_sqp", "command.x_m=0.1", "duration_s=3.6", torso)
+    assert result.status is TrialStatus.COMPLETED, result.status_reason
+    assert result.base_height_rms_mm is not None and result.base_height_rms_mm < 3.0
+    heights = read_log(tmp_path / LOG_FILE).control["base_height_reference"]
+    assert 1e3 * (heights.max() - heights.min()) >= moves_mm

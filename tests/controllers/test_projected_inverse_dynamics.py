@@ -27,6 +27,9 @@ def asked_for_more(reference: ControlReference, seed: int) -> ControlReference:
         com_position=reference.com_position + generator.uniform(-0.02, 0.02, 2),
         com_acceleration=generator.uniform(-1.0, 1.0, 2),
         base_height=reference.base_height + 0.01,
+        base_velocity=reference.base_velocity + generator.uniform(-0.1, 0.1, 3),
+        base_acceleration=generator.uniform(-1.0, 1.0, 3),
+        base_angular_acceleration=generator.uniform(-1.0, 1.0, 3),
         base_angular_velocity=generator.uniform(-0.1, 0.1, 3),
         foot_accelerations=reference.foot_accelerations + generator.uniform(-10.0, 10.0, (4, 3)),
     )
@@ -48,10 +51,14 @@ def asked_of_base(kinematics: Kinematics, reference: ControlReference) -> Array:
         reference.com_position - kinematics.com_position[:2],
     )
     height = gains.height.acceleration(
-        0.0, -kinematics.base_linear_velocity[2:], np.array([reference.base_height - kinematics.base_position[2]])
+        reference.base_acceleration[2:],
+        reference.base_velocity[2:] - kinematics.base_linear_velocity[2:],
+        np.array([reference.base_height - kinematics.base_position[2]]),
     )
     turn = gains.orientation.acceleration(
-        0.0, reference.base_angular_velocity - kinematics.base_angular_velocity, np.zeros(3)
+        reference.base_angular_acceleration,
+        reference.base_angular_velocity - kinematics.base_angular_velocity,
+        np.zeros(3),
     )
     return np.concatenate([horizontal, height, turn])
 

@@ -85,7 +85,6 @@ def displaced(robot: RobotModel, kinematics: Kinematics) -> tuple[ControlReferen
     offset, rate, feed_forward = generator.normal(size=(3, 4, 3))
     turn, heading = 0.2 * offset[0], rotation_z(-yaw_of(kinematics.base_rotation))
     exact = reference_at(robot, kinematics, [0, 2])
-    base_rate = exact.com_velocity + rate[1, :2] - kinematics.base_linear_velocity[:2]
     reference = replace(
         exact,
         com_position=exact.com_position + offset[1, :2],
@@ -93,18 +92,20 @@ def displaced(robot: RobotModel, kinematics: Kinematics) -> tuple[ControlReferen
         com_velocity=exact.com_velocity + rate[1, :2],
         com_acceleration=feed_forward[1, :2],
         base_height=exact.base_height + offset[2, 0],
+        base_velocity=exact.base_velocity + rate[3],
+        base_acceleration=feed_forward[3],
         base_rotation=pin.exp3(turn) @ exact.base_rotation,
         base_angular_velocity=exact.base_angular_velocity + rate[0],
+        base_angular_acceleration=feed_forward[0],
         foot_positions=exact.foot_positions + offset,
         foot_velocities=exact.foot_velocities + rate,
         foot_accelerations=exact.foot_accelerations + feed_forward,
     )
-    rotational = heading @ (STIFFNESS * turn + DAMPING * rate[0])
-    vertical_speed = kinematics.base_linear_velocity[2:3]
+    rotational = heading @ (STIFFNESS * turn + DAMPING * rate[0] + feed_forward[0])
     return reference, {
         "com_position": STIFFNESS * offset[1, :2] + DAMPING * rate[1, :2] + feed_forward[1, :2],
-        "base_position": STIFFNESS * offset[3, :2] + DAMPING * base_rate + feed_forward[1, :2],
-        "base_height": STIFFNESS * offset[2, :1] - DAMPING * vertical_speed,
+        "base_position": STIFFNESS * offset[3, :2] + DAMPING * rate[3, :2] + feed_forward[3, :2],
+        "base_height": STIFFNESS * offset[2, :1] + DAMPING * rate[3, 2:] + feed_forward[3, 2:],
         "base_yaw": rotational[2:],
         "base_roll_pitch": rotational[:2],
         "swing_feet": (STIFFNESS * offset + DAMPING * rate + feed_forward)[[1, 3]].ravel(),
