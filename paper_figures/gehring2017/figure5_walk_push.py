@@ -142,7 +142,7 @@ def _failures(rows: pd.DataFrame) -> str:
 
 def _paper_stack(largest_mps: float, push_mps: float, name: str) -> Claim:
     holds = largest_mps >= push_mps
-    ours = f"{'stays up' if holds else 'falls'}, largest push survived there {largest_mps:.2f} m/s"
+    ours = f"largest push survived there {largest_mps:.2f} m/s"
     text = f"stays up {name} {VARIANTS[PAPER_STACK]}, ekf"
     return Claim(text, "recovers; size not printed", ours, verdict(holds=holds), "" if holds else PAPER_STACK_WHY)
 
@@ -150,7 +150,7 @@ def _paper_stack(largest_mps: float, push_mps: float, name: str) -> Claim:
 def _without_alignment(largest_mps: float, aligned_mps: float, push_mps: float, name: str) -> Claim:
     """Return the claim that the alignment is what keeps the robot up."""
     falls = largest_mps < push_mps
-    ours = f"{'falls' if falls else 'stays up'}; it survives up to {largest_mps:.2f} m/s, {aligned_mps:.2f} aligned"
+    ours = f"largest push survived there {largest_mps:.2f} m/s, {aligned_mps:.2f} m/s with alignment"
     why = f"Alignment is worth {aligned_mps - largest_mps:.2f} m/s to this walk; the push of the paper is not printed."
     text = f"falls {name} without alignment of the plan, ekf"
     return Claim(text, "did not fall due to the alignment", ours, verdict(holds=falls), "" if falls else why)
