@@ -12,14 +12,15 @@ from matplotlib.figure import Figure
 from paper_figures.comparison_variants import FACTORS, STUDY, artefact
 from paper_figures.push_limits import ANYMAL_KG, PUSH_S
 from quadlab.analysis.artefact import Claim, Verdict
-from quadlab.analysis.paired import mean_difference, share_difference
+from quadlab.analysis.paired import mean_difference
 from quadlab.analysis.statistics import Interval
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import TEXT_WIDTH, paper_style
 
 CAPTION = (
-    "Mean differences over pairs of trials, or of searches for a limit, that differ in nothing else, with "
-    "intervals of 95 %; estimator ekf. Blue: the first is better, orange: the second, grey: not clear."
+    "Mean differences over conditions (disturbance, gait, seed, or direction and place of a search for a limit), each "
+    "the mean over both levels of the other factor, with intervals of 95 % that are not corrected for their number; "
+    "estimator ekf. Blue: the first is better, orange: the second, grey: not clear."
 )
 ARTEFACT = artefact("differences", "Weighted or hierarchical, kinematic or vertex ZMP", CAPTION)
 
@@ -34,6 +35,7 @@ class Measure:
         larger_is_better: direction.
         scale: from the column's unit.
         disturbance: rows that count; all if empty.
+        by_gait: whether each gait stands for itself, since gaits differ in it.
         searched: whether it is a limit that was searched for.
     """
 
@@ -42,20 +44,23 @@ class Measure:
     larger_is_better: bool
     scale: float = 1.0
     disturbance: str = ""
+    by_gait: bool = False
     searched: bool = False
 
 
+COMPLETED = "completed"
+"""Column of 1 for trials that stayed up and 0 for others."""
 MEASURES = (
-    Measure("largest push [m/s]", "limit", True, PUSH_S / ANYMAL_KG, "push", True),
-    Measure("highest plank [cm]", "limit", True, 100.0, "plank", True),
-    Measure("deepest step down [cm]", "limit", True, 100.0, "step down", True),
-    Measure("largest CoM error [mm]", "com_error_max_mm", False),
+    Measure("completed trials [share]", COMPLETED, True),
+    Measure("largest push [m/s]", "limit", True, PUSH_S / ANYMAL_KG, "push", searched=True),
+    Measure("highest plank [cm]", "limit", True, 100.0, "plank", searched=True),
+    Measure("deepest step down [cm]", "limit", True, 100.0, "step down", searched=True),
+    Measure("largest CoM error [mm]", "com_error_max_mm", False, by_gait=True),
     Measure("roll and pitch, rms [deg]", "roll_pitch_rms_deg", False),
-    Measure("cost of transport [-]", "cost_of_transport", False),
+    Measure("cost of transport [-]", "cost_of_transport", False, by_gait=True),
     Measure("planning [ms]", "planning_solve_ms", False),
     Measure("control tick, median [us]", "control_tick_median_us", False),
 )
-SUCCESS = "completed trials [share]"
 KEYS = ("disturbance", "gait", "direction", "scenario.pushes.0.start_s", "scenario.terrain.0.center_x_m",
         "scenario.terrain.0.edge_x_m", "seed")  # fmt: skip
 
@@ -91,6 +96,7 @@ def _draw_difference(axes: Axes, entry: "pd.Series[float]", *, label: bool) -> N
     axes.grid(visible=False, axis="y")
     axes.spines["left"].set_visible(False)
     axes.locator_params(axis="x", nbins=5)
+    axes.ticklabel_format(axis="x", style="plain", useOffset=False)
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:
@@ -100,18 +106,42 @@ def numbers(results: StudyResults) -> pd.DataFrame:
 
 def _rows(table: pd.DataFrame, limits: pd.DataFrame) -> Iterator[dict[str, object]]:
     tracked = table[~table["disturbance"].isin(limits["disturbance"].unique())]
+    tracked = tracked.assign(**{COMPLETED: (tracked["status"] == "completed").astype(float)})
+    good, survived = tracked[tracked[COMPLETED] > 0.0], limits.fillna({"limit": 0.0})
     for factor, levels in FACTORS.items():
-        other = next(name for name in FACTORS if name != factor)
-        same = [key for key in (*KEYS, other) if key in tracked]
-        yield _row(factor, SUCCESS, True, share_difference(tracked, factor, levels, same, ["completed"]))
-        completed = tracked[tracked["status"] == "completed"]
         for measure in MEASURES:
-            source = limits.fillna({"limit": 0.0}) if measure.searched else completed
-            chosen = source[source["disturbance"] == measure.disturbance] if measure.disturbance else source
-            scaled = chosen.assign(**{measure.column: measure.scale * chosen[measure.column]})
-            same = [key for key in (*KEYS, other) if key in scaled]
-            difference = mean_difference(scaled, factor, levels, same, measure.column)
-            yield _row(factor, measure.name, measure.larger_is_better, difference)
+            source = survived if measure.searched else tracked if measure.column == COMPLETED else good
+            for name, rows in _parts(source, measure):
+                scaled = rows.assign(**{measure.column: measure.scale * rows[measure.column]})
+                means, same = averaged(scaled, factor, measure.column)
+                difference = mean_difference(means, factor, levels, same, measure.column)
+                yield _row(factor, name, measure.larger_is_better, difference)
+
+
+def _parts(source: pd.DataFrame, measure: Measure) -> Iterator[tuple[str, pd.DataFrame]]:
+    """Return the rows that count for a measure, gait by gait if gaits stand for themselves, and how that is called."""
+    chosen = source[source["disturbance"] == measure.disturbance] if measure.disturbance else source
+    if not measure.by_gait:
+        yield measure.name, chosen
+        return
+    for gait, rows in chosen.groupby("gait", sort=False):
+        yield f"{measure.name}, {str(gait).replace('_', ' ')}", rows
+
+
+def averaged(table: pd.DataFrame, factor: str, column: str) -> tuple[pd.DataFrame, list[str]]:
+    """Return the mean of ``column`` over the levels of the other factor, and the columns that make a condition.
+
+    There is one row a condition and level of ``factor``.
+
+    Trials that differ in the other factor alone are no independent ones: counted singly they would make intervals too
+    narrow. Conditions in which a value is missing at one of its levels are left out.
+    """
+    other = next(name for name in FACTORS if name != factor)
+    keys = [key for key in KEYS if key in table]
+    known = table.assign(**{key: table[key].astype(str).where(table[key].notna(), "") for key in keys})
+    groups = known.groupby([*keys, factor], observed=True)[column]
+    means = groups.agg(["mean", "count"]).reset_index().rename(columns={"mean": column})
+    return means[means["count"] == len(FACTORS[other])], keys
 
 
 def _row(factor: str, name: str, larger_is_better: bool, difference: Interval) -> dict[str, object]:

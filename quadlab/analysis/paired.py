@@ -2,10 +2,9 @@
 
 from collections.abc import Sequence
 
-import numpy as np
 import pandas as pd
 
-from quadlab.analysis.statistics import Interval, paired_mean_difference, paired_share_difference
+from quadlab.analysis.statistics import Interval, paired_mean_difference
 
 
 def pairs(table: pd.DataFrame, factor: str, levels: tuple[str, str], same: Sequence[str], column: str) -> pd.DataFrame:
@@ -32,13 +31,3 @@ def mean_difference(
     """Return the mean of second minus first over pairs with its 95 % interval; see ``pairs``."""
     wide = pairs(table, factor, levels, same, column)
     return paired_mean_difference(wide[levels[0]].to_numpy(float), wide[levels[1]].to_numpy(float))
-
-
-def share_difference(
-    table: pd.DataFrame, factor: str, levels: tuple[str, str], same: Sequence[str], good: Sequence[str]
-) -> Interval:
-    """Return how much more often the second level ends in a status of ``good``, with its 95 % interval."""
-    judged = table.assign(good=table["status"].isin(good).astype(float))
-    wide = pairs(judged, factor, levels, same, "good")
-    first, second = (wide[level].to_numpy(bool) for level in levels)
-    return paired_share_difference(int(np.sum(first & ~second)), int(np.sum(second & ~first)), len(wide))

@@ -4,14 +4,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from quadlab.analysis.paired import mean_difference, pairs, share_difference
+from quadlab.analysis.paired import mean_difference, pairs
 
 TABLE = pd.DataFrame(
     {
         "controller": ["weighted", "strict", "weighted", "strict", "weighted"],
         "seed": [0, 0, 1, 1, 2],
         "error": [2.0, 1.0, 4.0, 2.0, 100.0],
-        "status": ["completed", "completed", "fell", "completed", "fell"],
     }
 )
 LEVELS = ("weighted", "strict")
@@ -28,12 +27,6 @@ def test_mean_difference_is_second_minus_first() -> None:
     assert difference.estimate == pytest.approx(-1.5)
     assert difference.count == 2
     assert difference.lower < -1.5 < difference.upper
-
-
-def test_share_difference_counts_pairs_that_disagree() -> None:
-    difference = share_difference(TABLE, "controller", LEVELS, ["seed"], ["completed"])
-    assert difference.estimate == pytest.approx(0.5)
-    assert difference.count == 2
 
 
 def test_column_that_says_nothing_of_a_condition_does_not_drop_it() -> None:
