@@ -63,6 +63,7 @@ bench: setup
 	$(BIN)/python experiments/bench_planners.py
 	$(BIN)/python experiments/bench_kinematic_sqp.py
 	$(BIN)/python experiments/bench_controllers.py
+	$(BIN)/python experiments/bench_controllers.py --closed-loop
 	$(BIN)/python experiments/bench_loop.py
 	$(BIN)/python experiments/bench_sweep.py --many 0
 

@@ -6,6 +6,9 @@ A trial is simulated once; its measured states are then given to a fresh control
 the same torques bit by bit. The time of a tick is the smallest over the repetitions, so that a busy machine does not
 count; with ``--closed-loop`` it is that of the simulated trial, where the physics have emptied the caches in between.
 Assembly writes dynamics, tasks and limits as rows of the solver; controllers without it count everything as solve.
+
+The first line is a yardstick: Pinocchio's ``computeAllTerms``, a piece of compiled code that every tick contains.
+Machines are compared by ticks in units of it.
 """
 
 import argparse
@@ -17,6 +20,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+import pinocchio as pin
 from threadpoolctl import threadpool_limits
 
 from quadlab.controllers.reference import ControlReference
@@ -25,6 +29,7 @@ from quadlab.controllers.tracking_controller import TrackingController, build_co
 from quadlab.errors import QuadlabError
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan
+from quadlab.robots.catalogue import robot_config
 from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.model import RobotModel, load_robot
 from quadlab.robots.state import RobotState
@@ -135,6 +140,18 @@ def bench(controller: str, robot_name: str, gait: str, repeats: int) -> list[str
     return lines
 
 
+def yardstick_us(robot_name: str) -> float:
+    """Return the median time of Pinocchio's ``computeAllTerms`` in the nominal stance, in [us]."""
+    model = load_robot(robot_config(robot_name)).pin_model
+    data, q, v = model.createData(), pin.neutral(model), np.zeros(model.nv)
+    times = []
+    for _ in range(2000):
+        began = time.perf_counter()
+        pin.computeAllTerms(model, data, q, v)
+        times.append(time.perf_counter() - began)
+    return 1e6 * float(np.median(times))
+
+
 def main() -> int:
     """Print all measurements."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -144,6 +161,7 @@ def main() -> int:
     parser.add_argument("--controllers", nargs="+", default=CONTROLLERS, help="names in conf/controller")
     arguments = parser.parse_args()
     repeats = 0 if arguments.closed_loop else arguments.repeats
+    sys.stdout.write(f"computeAllTerms: {yardstick_us(arguments.robot):.1f} us\n")
     sys.stdout.write(f"{'median and p99 in us':27}{'gait':6}{'feet':>4}{'ticks':>7}")
     sys.stdout.write("".join(f"{part:>15}" for part in PARTS) + "\n")
     with threadpool_limits(1):

@@ -47,9 +47,11 @@ def test_the_cascade_gives_the_same_torques_or_says_that_it_failed(
             assert printed.residuals[level] == pytest.approx(norm, rel=1e-2, abs=1e-2)
 
 
-def test_the_cascade_solves_nearly_every_quiet_tick() -> None:
+@pytest.mark.parametrize("name", ["hierarchical", "bellicoso2016", "gehring2017"])
+@pytest.mark.parametrize("qp_solver", ["daqp", "piqp"])
+def test_the_cascade_solves_nearly_every_quiet_tick(name: str, qp_solver: str) -> None:
     robot = robot_named("anymal_b")
-    config = preset("bellicoso2016", "method=cascade")
+    config = preset(name, "method=cascade", f"qp_solver={qp_solver}")
     solved = [resolved(config, *near_rest(robot, stance, seed)).solved for seed in range(6) for stance in STANCES]
     assert np.mean(solved) > 0.8
 

@@ -13,7 +13,7 @@ from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 class BasePositionTask:
     """J_B,xy u_dot = r_ddot_ref + K_D (r_dot_ref - r_dot) + K_P (r_ref - r) - J_dot u.
 
-    The height has a task of its own, so that its gains can differ as they do in the paper's control frame.
+    In world axes. The height has a task of its own, so that its gains can differ as in the paper's control frame.
     """
 
     class Config(TrackingGains):

@@ -11,7 +11,11 @@ from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 
 @register("task", "com_position")
 class ComPositionTask:
-    """J_com,xy u_dot = c_ddot_ref + K_d (c_dot_ref - c_dot) + K_p (c_ref - c) - J_dot u."""
+    """J_com,xy u_dot = c_ddot_ref + K_d (c_dot_ref - c_dot) + K_p (c_ref - c) - J_dot u.
+
+    In world axes and with one gain for both, where the papers use a control frame that leans with the ground: on level
+    ground that is the same.
+    """
 
     class Config(TrackingGains):
         """Gains of the horizontal CoM motion."""
