@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any
 
-from pydantic import Field, PlainSerializer, PlainValidator
+from pydantic import PlainSerializer, PlainValidator, field_validator
 
 from quadlab.configuration import StrictModel, registered
 from quadlab.controllers.limits import (
@@ -72,7 +72,15 @@ class LevelConfig(StrictModel):
     """
 
     name: str
-    tasks: Annotated[tuple[TaskConfig, ...], Field(min_length=1)]
+    tasks: tuple[TaskConfig, ...]
+
+    @field_validator("tasks")
+    @classmethod
+    def _has_tasks(cls, tasks: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Counted here and not by the type, which would count a task with a mistake as missing as well."""
+        if not tasks:
+            raise ValueError("a level needs at least one task")
+        return tasks
 
 
 def build_task(config: Any) -> Task:

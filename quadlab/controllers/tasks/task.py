@@ -20,8 +20,6 @@ class Variable(StrEnum):
     FORCE = "force"
     """Contact forces lambda of the standing legs in world axes, (3 n_stance,) in [N]."""
 
-    __hash__ = str.__hash__  # looked up in every tick; an enumeration's own hash is a function of Python
-
 
 class TaskRows(NamedTuple):
     """Rows lower <= matrix x <= upper of one variable block; equal bounds make an equation.
