@@ -16,6 +16,7 @@ INDEX = "trial_id"
 PARQUET, CSV = "trials.parquet", "trials.csv"
 COMMIT = "commit"
 _NAMED_PARTS = ("robot", "gait", "planner", "controller", "scenario")
+_UNKNOWN = "unknown"
 _TYPES = {int: "Int64", float: "Float64", bool: "boolean", str: "string"}
 
 
@@ -66,16 +67,25 @@ def varied_values(configs: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
 def _row(entry: TrialEntry) -> dict[str, Any]:
     if entry.result is not None:
         return entry.result.model_dump(mode="json")
-    names = {part: (entry.config.get(part) or {}).get("name", "unknown") for part in _NAMED_PARTS}
     return {
         INDEX: entry.trial_id,
         "status": TrialStatus.ERROR.value,
         "status_reason": entry.reason,
-        **names,
-        "estimator": (entry.config.get("estimator") or {}).get("kind", "unknown"),
-        "seed": entry.config.get("seed"),
-        "duration_s": entry.config.get("duration_s"),
+        **{part: _word(entry.config, part, "name") for part in _NAMED_PARTS},
+        "estimator": _word(entry.config, "estimator", "kind"),
+        "seed": _number(entry.config, "seed", int),
+        "duration_s": _number(entry.config, "duration_s", int, float),
     }
+
+
+def _word(config: Mapping[str, Any], part: str, key: str) -> str:
+    values = config.get(part)
+    return str(values.get(key, _UNKNOWN)) if isinstance(values, Mapping) else _UNKNOWN
+
+
+def _number(config: Mapping[str, Any], key: str, *kinds: type) -> Any:
+    value = config.get(key)
+    return value if type(value) in kinds else None
 
 
 def _type_of(field: str) -> str:

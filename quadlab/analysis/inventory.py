@@ -3,13 +3,15 @@
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import yaml
 
+from quadlab.analysis.yaml_text import load_yaml
 from quadlab.errors import LogError
 from quadlab.trials.identity import ID_LENGTH
 from quadlab.trials.job import CONFIG_FILE, ERROR_FILE
@@ -42,21 +44,29 @@ class TrialEntry:
         state: how far it is.
         result: if it has finished.
         reason: one line if it has failed or its result cannot be read.
-        config: its configuration as written; empty if that cannot be read.
-        commit: of the code that ran it; None if unknown.
     """
 
     directory: Path
     state: EntryState
     result: TrialResult | None = None
     reason: str = ""
-    config: Mapping[str, Any] = field(default_factory=dict)
-    commit: str | None = None
 
     @property
     def trial_id(self) -> str:
         """The name of the trial."""
         return self.directory.name
+
+    @cached_property
+    def config(self) -> Mapping[str, Any]:
+        """Its configuration as written, read when first asked for; empty if that cannot be read."""
+        return _mapping(self.directory / CONFIG_FILE, load_yaml)
+
+    @cached_property
+    def commit(self) -> str | None:
+        """The commit of the code that ran it; None if unknown."""
+        git = _mapping(self.directory / MANIFEST_FILE, json.loads).get("git")
+        commit = git.get("commit") if isinstance(git, dict) else None
+        return commit if isinstance(commit, str) else None
 
 
 def trial_entries(folder: Path) -> list[TrialEntry]:
@@ -73,14 +83,7 @@ def trial_entries(folder: Path) -> list[TrialEntry]:
         if path.name in names:
             raise LogError(f"{path} and {names[path.name]} are the same trial; name one folder of results at a time")
         names[path.name] = path
-    return [_entry(names[name]) for name in sorted(names)]
-
-
-def _entry(directory: Path) -> TrialEntry:
-    state, result, reason = _state(directory)
-    config = _mapping(directory / CONFIG_FILE, yaml.safe_load)
-    git = _mapping(directory / MANIFEST_FILE, json.loads).get("git") or {}
-    return TrialEntry(directory, state, result, reason, config, git.get("commit"))
+    return [TrialEntry(names[name], *_state(names[name])) for name in sorted(names)]
 
 
 def _state(directory: Path) -> tuple[EntryState, TrialResult | None, str]:

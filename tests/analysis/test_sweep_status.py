@@ -3,9 +3,12 @@
 from pathlib import Path
 
 import pytest
+import yaml
 from trial_folders import begin, fail, finish, options
 
+from quadlab.analysis import inventory, yaml_text
 from quadlab.analysis import sweep_status as status_module
+from quadlab.analysis.clean import find_litter
 from quadlab.cli import main
 from quadlab.sweeps.record import record_sweep
 from quadlab.sweeps.trial_pool import SweepTrial
@@ -70,6 +73,19 @@ def test_clean_keeps_every_result_even_one_that_cannot_be_read(folder: Path) -> 
     assert main(["clean", str(folder), "--yes"]) == 0
     assert {path: path.read_bytes() for path in folder.rglob("result.json")} == results
     assert len([path for path in folder.iterdir() if len(path.name) == 16]) == 3
+
+
+def test_clean_needs_no_configuration(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: object) -> None:
+        raise AssertionError("a configuration was read")
+
+    monkeypatch.setattr(inventory, "load_yaml", refuse)
+    assert find_litter(folder)
+
+
+def test_yaml_is_read_by_libyaml_where_it_is_there() -> None:
+    assert (yaml_text.LOADER is not yaml.SafeLoader) == yaml.__with_libyaml__
+    assert yaml_text.load_yaml("a: [1, 2.5, null, true, x]") == {"a": [1, 2.5, None, True, "x"]}
 
 
 def test_clean_asks_first(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
