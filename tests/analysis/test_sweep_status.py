@@ -4,11 +4,13 @@ from pathlib import Path
 
 import pytest
 import yaml
+from synthetic_records import write_log
 from trial_folders import begin, fail, finish, options
 
 from quadlab.analysis import inventory, yaml_text
 from quadlab.analysis import sweep_status as status_module
 from quadlab.analysis.clean import find_litter
+from quadlab.analysis.trial_directory import find_log
 from quadlab.cli import main
 from quadlab.sweeps.record import record_sweep
 from quadlab.sweeps.trial_pool import SweepTrial
@@ -93,6 +95,18 @@ def test_clean_asks_first(folder: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert main(["clean", str(folder)]) == 2
     assert "--yes" in capsys.readouterr().err
     assert sorted(folder.rglob("*")) == before
+
+
+def test_clean_keeps_a_recovered_log(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    directory, _ = begin(tmp_path, "seed=0")
+    write_log(directory / "whole.mcap", ticks=5).rename(directory / "trial.mcap.part")
+    assert main(["recover", str(directory / "trial.mcap.part")]) == 0
+    rescued = find_log(directory)
+    assert main(["clean", str(tmp_path), "--yes"]) == 0
+    assert list(directory.iterdir()) == [rescued]
+    capsys.readouterr()
+    assert main(["clean", str(tmp_path), "--yes"]) == 0
+    assert capsys.readouterr().out == f"{tmp_path}: nothing that never finished\n"
 
 
 def test_clean_leaves_what_somebody_else_put_there(tmp_path: Path) -> None:
