@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, get_args
 
@@ -33,6 +34,7 @@ def collect_trials(folder: Path) -> pd.DataFrame:
     entries = [
         entry for entry in trial_entries(folder) if entry.state not in (EntryState.RUNNING, EntryState.UNFINISHED)
     ]
+    _check_unique(entries)
     if not entries:
         raise LogError(f"{folder}: no trial in it has an outcome yet; 'quadlab status {folder}' says what is there")
     results = pd.DataFrame([_row(entry) for entry in entries], columns=list(TrialResult.model_fields))
@@ -62,6 +64,12 @@ def varied_values(configs: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
     columns = {key: [values.get(key) for values in flat] for key in keys}
     varied = {key: values for key, values in columns.items() if len(set(map(repr, values))) > 1}
     return pd.DataFrame({key: _typed(values) for key, values in varied.items() if key not in TrialResult.model_fields})
+
+
+def _check_unique(entries: Sequence[TrialEntry]) -> None:
+    for one, other in pairwise(entries):
+        if one.trial_id == other.trial_id:
+            raise LogError(f"{one.directory} and {other.directory} are the same trial; name one of the two folders")
 
 
 def _row(entry: TrialEntry) -> dict[str, Any]:

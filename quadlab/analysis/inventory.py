@@ -70,20 +70,15 @@ class TrialEntry:
 
 
 def trial_entries(folder: Path) -> list[TrialEntry]:
-    """Return what is known of every trial below ``folder``, sorted by trial id.
+    """Return what is known of every trial below ``folder``, sorted by trial id; one may be there under several tags.
 
     Raises:
-        LogError: if there is no such folder, or two of its trials have the same id.
+        LogError: if there is no such folder.
     """
     if not folder.is_dir():
         raise LogError(f"{folder}: no such folder; expected one with trials in it, e.g. results/trials")
     found = [path for path in folder.rglob("*") if _TRIAL_NAME.fullmatch(path.name) and path.is_dir()]
-    names: dict[str, Path] = {}
-    for path in found:
-        if path.name in names:
-            raise LogError(f"{path} and {names[path.name]} are the same trial; name one folder of results at a time")
-        names[path.name] = path
-    return [TrialEntry(names[name], *_state(names[name])) for name in sorted(names)]
+    return [TrialEntry(path, *_state(path)) for path in sorted(found, key=lambda path: (path.name, path))]
 
 
 def _state(directory: Path) -> tuple[EntryState, TrialResult | None, str]:

@@ -49,6 +49,57 @@ def test_every_trial_that_is_not_fine_is_named(folder: Path, capsys: pytest.Capt
     assert len(lines) == 5
 
 
+def _record(results: Path, tag: str, *seeds: int) -> None:
+    config = compose_trial([f"tag={tag}"])
+    trials = [SweepTrial(f"seed={seed}", config.model_copy(update={"seed": seed})) for seed in seeds]
+    record_sweep(trials, options(results))
+
+
+def test_what_a_tag_lacks_its_parent_lacks_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(status_module, "git_state", lambda _: {"commit": OLD})
+    _record(tmp_path, "one", 0)
+    _record(tmp_path, "two", 0, 1)
+    for tag in ("one", "two"):
+        finish(tmp_path, "seed=0", f"tag={tag}")
+    assert main(["status", str(tmp_path / "two")]) == 1
+    assert main(["status", str(tmp_path)]) == 1
+    shown = capsys.readouterr().out
+    assert shown.count("2 asked for") == 2
+    assert shown.count("missing") == 4
+    assert "  stale         one/" in shown
+
+
+@pytest.mark.parametrize("inside", ["", "tag/sweeps", "tag/0123456789abcdef"])
+def test_folder_without_trials_is_a_mistake(tmp_path: Path, inside: str, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / inside).mkdir(parents=True, exist_ok=True)
+    assert main(["status", str(tmp_path / inside)]) == 2
+    assert capsys.readouterr().err == (
+        f"quadlab: {tmp_path / inside}: no trial in it, and no sweep asked for one; expected results/<tag>\n"
+    )
+
+
+@pytest.mark.parametrize("content", [b"\xff", b"{", b'["ab"]', b'{"0": 1}'])
+def test_record_that_is_none_is_one_line(tmp_path: Path, content: bytes, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "sweeps").mkdir()
+    (tmp_path / "sweeps/x.json").write_bytes(content)
+    assert main(["status", str(tmp_path)]) == 2
+    assert capsys.readouterr().err.startswith(f"quadlab: {tmp_path}/sweeps/x.json: not the record of a sweep (")
+
+
+def test_finished_trial_without_its_configuration_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(status_module, "git_state", lambda _: None)
+    directory = finish(tmp_path, "seed=0")
+    (directory / "config.yaml").unlink()
+    assert main(["status", str(tmp_path)]) == 1
+    first, line = capsys.readouterr().out.splitlines()
+    assert first.endswith("1 finished (1 completed), 1 config unreadable")
+    assert line.startswith(f"  config unreadable  trials/{directory.name}: no config.yaml that can be read")
+
+
 def test_complete_folder_is_exit_code_0(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(status_module, "git_state", lambda _: None)
     finish(tmp_path, "seed=0")
