@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from quadlab.analysis.collection import COMMIT_LENGTH
 from quadlab.analysis.inventory import EntryState, TrialEntry, trial_entries
 from quadlab.errors import LogError
 from quadlab.paths import checkout_dir
@@ -12,7 +13,6 @@ from quadlab.sweeps.record import asked_for
 from quadlab.trials.job import CONFIG_FILE
 from quadlab.trials.manifest import git_state
 
-COMMIT_LENGTH = 10
 _NO_CONFIG = "config unreadable"
 
 
