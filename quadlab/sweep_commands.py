@@ -19,7 +19,7 @@ def add_to(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> N
     compare = _add(commands, "compare", "compare success and a metric between the levels of a factor", _compare)
     compare.add_argument("--by", required=True, metavar="FACTOR", help="e.g. controller, or controller.rate_hz")
     compare.add_argument("--columns", metavar="FACTOR", help="a second factor, for the columns of the tables")
-    compare.add_argument("--metric", default="com_error_rms_mm", help="a column of the result (%(default)s)")
+    compare.add_argument("--metric", default="com_error_rms_mm", help="an outcome that is a number (%(default)s)")
     compare.add_argument("--baseline", metavar="LEVEL", help="of the factor; the first by default")
 
 
@@ -45,12 +45,14 @@ def _status(options: argparse.Namespace) -> int:
 
 
 def _collect(options: argparse.Namespace) -> int:
-    from quadlab.analysis.collect import collect_trials, write_collected  # noqa: PLC0415
+    from quadlab.analysis.collect import collect, write_collected  # noqa: PLC0415
 
-    table = collect_trials(options.folder)
+    collection = collect(options.folder)
+    table = collection.table
     parquet, csv = write_collected(table, options.folder)
     counts = ", ".join(f"{count} {status}" for status, count in table["status"].value_counts().sort_index().items())
-    sys.stdout.write(f"{len(table)} trials ({counts}): {parquet}, {csv}\n")
+    lines = [f"{len(table)} trials ({counts}): {parquet}, {csv}", *collection.notes()]
+    sys.stdout.write("\n".join(lines) + "\n")
     return EXIT_OK
 
 

@@ -53,7 +53,8 @@ def _litter(folder: Path) -> Iterator[Litter]:
         present = sorted(entry.directory.iterdir())
         if entry.state in _REMOVABLE:
             ours = tuple(path for path in present if _is_ours(path))
-            yield Litter(entry.directory, ours, whole=len(ours) == len(present))
+            if ours or not present:
+                yield Litter(entry.directory, ours, whole=len(ours) == len(present))
         elif entry.state is EntryState.FINISHED and (halves := tuple(path for path in present if _is_part(path))):
             yield Litter(entry.directory, halves, whole=False)
 

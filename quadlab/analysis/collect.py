@@ -1,12 +1,15 @@
 """The results of many trials in one typed table, with what was varied, for pandas, R or a spreadsheet."""
 
 import os
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, get_args
 
 import pandas as pd
 
+from quadlab.analysis.collection import COMMIT, Collection
 from quadlab.analysis.inventory import EntryState, TrialEntry, trial_entries
 from quadlab.errors import LogError
 from quadlab.trials.files import write_text
@@ -14,8 +17,9 @@ from quadlab.trials.result import TrialResult, TrialStatus
 
 INDEX = "trial_id"
 PARQUET, CSV = "trials.parquet", "trials.csv"
-COMMIT = "commit"
+_WITHOUT_OUTCOME = (EntryState.RUNNING, EntryState.UNFINISHED)
 _NAMED_PARTS = ("robot", "gait", "planner", "controller", "scenario")
+_UNKNOWN = "unknown"
 _TYPES = {int: "Int64", float: "Float64", bool: "boolean", str: "string"}
 
 
@@ -29,11 +33,26 @@ def collect_trials(folder: Path) -> pd.DataFrame:
     Raises:
         LogError: if there is nothing to collect, or two trials have the same id.
     """
-    entries = [
-        entry for entry in trial_entries(folder) if entry.state not in (EntryState.RUNNING, EntryState.UNFINISHED)
-    ]
+    return collect(folder).table
+
+
+def collect(folder: Path) -> Collection:
+    """Return the table of ``collect_trials`` together with what is to be known of it.
+
+    Raises:
+        LogError: as ``collect_trials``.
+    """
+    found = trial_entries(folder)
+    entries = [entry for entry in found if entry.state not in _WITHOUT_OUTCOME]
+    _check_unique(entries)
     if not entries:
         raise LogError(f"{folder}: no trial in it has an outcome yet; 'quadlab status {folder}' says what is there")
+    left_out = Counter(entry.state.value for entry in found if entry.state in _WITHOUT_OUTCOME)
+    without_config = tuple(entry.trial_id for entry in entries if not entry.config)
+    return Collection(_table(entries), without_config, left_out)
+
+
+def _table(entries: Sequence[TrialEntry]) -> pd.DataFrame:
     results = pd.DataFrame([_row(entry) for entry in entries], columns=list(TrialResult.model_fields))
     results = results.astype({name: _type_of(name) for name in TrialResult.model_fields})
     results[COMMIT] = pd.array([entry.commit for entry in entries], dtype="string")
@@ -55,27 +74,46 @@ def write_collected(table: pd.DataFrame, folder: Path) -> tuple[Path, Path]:
 
 
 def varied_values(configs: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
-    """Return one row a configuration and one typed column for each dotted key whose value is not the same in all."""
-    flat = [dict(_leaves(config)) for config in configs]
-    keys = sorted({key for values in flat for key in values})
-    columns = {key: [values.get(key) for values in flat] for key in keys}
-    varied = {key: values for key, values in columns.items() if len(set(map(repr, values))) > 1}
-    return pd.DataFrame({key: _typed(values) for key, values in varied.items() if key not in TrialResult.model_fields})
+    """Return one row a configuration and one typed column for each dotted key whose value is not the same in all.
+
+    An empty configuration is an unknown one: a row without values, which makes nothing varied.
+    """
+    flat = [dict(_leaves(config)) if config else None for config in configs]
+    known = [values for values in flat if values is not None]
+    keys = {key for values in known for key in values} - set(TrialResult.model_fields)
+    varied = [key for key in sorted(keys) if len({repr(values.get(key)) for values in known}) > 1]
+    columns = {key: _typed([values and values.get(key) for values in flat]) for key in varied}
+    return pd.DataFrame(columns, index=range(len(flat)))
+
+
+def _check_unique(entries: Sequence[TrialEntry]) -> None:
+    for one, other in pairwise(entries):
+        if one.trial_id == other.trial_id:
+            raise LogError(f"{one.directory} and {other.directory} are the same trial; name one of the two folders")
 
 
 def _row(entry: TrialEntry) -> dict[str, Any]:
     if entry.result is not None:
         return entry.result.model_dump(mode="json")
-    names = {part: (entry.config.get(part) or {}).get("name", "unknown") for part in _NAMED_PARTS}
     return {
         INDEX: entry.trial_id,
         "status": TrialStatus.ERROR.value,
         "status_reason": entry.reason,
-        **names,
-        "estimator": (entry.config.get("estimator") or {}).get("kind", "unknown"),
-        "seed": entry.config.get("seed"),
-        "duration_s": entry.config.get("duration_s"),
+        **{part: _word(entry.config, part, "name") for part in _NAMED_PARTS},
+        "estimator": _word(entry.config, "estimator", "kind"),
+        "seed": _number(entry.config, "seed", int),
+        "duration_s": _number(entry.config, "duration_s", int, float),
     }
+
+
+def _word(config: Mapping[str, Any], part: str, key: str) -> str:
+    values = config.get(part)
+    return str(values.get(key, _UNKNOWN)) if isinstance(values, Mapping) else _UNKNOWN
+
+
+def _number(config: Mapping[str, Any], key: str, *kinds: type) -> Any:
+    value = config.get(key)
+    return value if type(value) in kinds else None
 
 
 def _type_of(field: str) -> str:

@@ -5,15 +5,10 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+from quadlab.analysis.factors import SEED, VALUES, baseline_of, level_order, levels_of, metric_of, texts_of
 from quadlab.analysis.statistics import Interval, paired_mean_difference, paired_share_difference, wilson_interval
 from quadlab.errors import LogError
-from quadlab.trials.problems import suggestion
 from quadlab.trials.result import TrialStatus
-
-SEED = "seed"
-_BOTH = (SEED, "duration_s")
-"""Values of the configuration that are columns of the result too."""
-_MISSING = "none"
 
 
 @dataclass(frozen=True)
@@ -22,13 +17,16 @@ class Group:
 
     Attributes:
         levels: one for each factor.
-        success: share of trials that completed, with Wilson's interval.
+        success: share of trials that completed, with Wilson's interval; where the program failed nothing is known of
+            success, so that these trials do not count.
         metric: values of the trials that completed and have it.
+        errors: number of trials in which the program failed.
     """
 
     levels: tuple[str, ...]
     success: Interval
     metric: tuple[float, ...]
+    errors: int = 0
 
 
 @dataclass(frozen=True)
@@ -39,7 +37,7 @@ class PairedComparison:
         first, second: the levels.
         success: share of the second minus that of the first, with Bonett and Price's interval.
         metric: second minus first over the pairs in which both completed, with Student's interval.
-        unpaired: trials of either level without a partner; they are left out.
+        unpaired: trials of either level without a partner, or whose partner ended in an error; they are left out.
     """
 
     first: str
@@ -49,55 +47,32 @@ class PairedComparison:
     unpaired: int
 
 
-def levels_of(table: pd.DataFrame, factor: str) -> "pd.Series[str]":
-    """Return the level of each trial as text.
-
-    Args:
-        table: of ``collect_trials``.
-        factor: a column: a field of the result such as ``controller``, or a dotted key of the configuration that
-            differs between the trials.
-
-    Raises:
-        LogError: if there is no such column.
-    """
-    if factor not in table:
-        raise LogError(f"'{factor}' is no column, or the same in all trials; {suggestion(factor, table.columns)}")
-    column = table[factor]
-    return column.astype("string").fillna(_MISSING).astype(str)
-
-
-def metric_of(table: pd.DataFrame, metric: str) -> "pd.Series[float]":
-    """Return a numerical column.
-
-    Raises:
-        LogError: if there is none of that name.
-    """
-    numbers = [name for name in table.columns if pd.api.types.is_numeric_dtype(table[name])]
-    if metric not in numbers:
-        raise LogError(f"'{metric}' is no numerical column; {suggestion(metric, numbers)}")
-    return table[metric].astype("Float64").astype(float)
-
-
 def grouped(table: pd.DataFrame, factors: Sequence[str], metric: str) -> list[Group]:
     """Return the groups of all combinations of levels that exist, sorted.
 
     Args:
         table: of ``collect_trials``.
-        factors: columns.
-        metric: a numerical column.
+        factors: one or two, see ``levels_of``.
+        metric: see ``metric_of``.
 
     Raises:
-        LogError: if a column does not exist.
+        LogError: if the factors or the metric are none.
     """
+    if len(set(factors)) < len(factors):
+        raise LogError(f"'{factors[0]}' is named twice; expected two factors")
     levels = pd.DataFrame({factor: levels_of(table, factor) for factor in factors})
-    completed, values = _completed(table), metric_of(table, metric)
-    groups = []
-    for key, rows in levels.groupby(list(factors)):
-        done = completed[rows.index]
-        success = wilson_interval(int(done.sum()), len(rows))
-        numbers = values[rows.index][done].dropna()
-        groups.append(Group(tuple(map(str, key)), success, tuple(float(number) for number in numbers)))
-    return groups
+    values = metric_of(table, metric)
+    groups = [
+        _group(tuple(map(str, key)), table.loc[rows.index, "status"], values[rows.index])
+        for key, rows in levels.groupby(list(factors))
+    ]
+    return sorted(groups, key=lambda group: tuple(map(level_order, group.levels)))
+
+
+def _group(levels: tuple[str, ...], status: "pd.Series[str]", values: "pd.Series[float]") -> Group:
+    done, errors = _is(status, TrialStatus.COMPLETED), int(_is(status, TrialStatus.ERROR).sum())
+    success = wilson_interval(int(done.sum()), len(status) - errors)
+    return Group(levels, success, tuple(float(number) for number in values[done].dropna()), errors)
 
 
 def paired(table: pd.DataFrame, factor: str, metric: str, baseline: str | None = None) -> list[PairedComparison]:
@@ -108,25 +83,24 @@ def paired(table: pd.DataFrame, factor: str, metric: str, baseline: str | None =
 
     Args:
         table: of ``collect_trials``.
-        factor: a column.
-        metric: a numerical column.
+        factor: see ``levels_of``.
+        metric: see ``metric_of``.
         baseline: a level; the first by default.
 
     Raises:
-        LogError: if a column or the baseline does not exist, or a level was tried twice in the same condition.
+        LogError: if factor, metric or baseline are none, or a level was tried twice in the same condition.
     """
-    levels, values, completed = levels_of(table, factor), metric_of(table, metric), _completed(table)
-    names = sorted(levels.unique())
-    first = names[0] if baseline is None else baseline
-    if first not in names:
-        raise LogError(f"'{first}' is no level of {factor}; {suggestion(first, names)}")
+    levels, values = levels_of(table, factor), metric_of(table, metric)
+    names = sorted(levels.unique(), key=level_order)
+    first = baseline_of(factor, names, baseline)
     frame = pd.DataFrame({"level": levels, "condition": _conditions(table, factor, levels)})
-    frame["completed"], frame["metric"] = completed, values
+    frame["completed"], frame["metric"] = _is(table["status"], TrialStatus.COMPLETED), values
+    frame = frame[~_is(table["status"], TrialStatus.ERROR)]
     twice = frame[frame.duplicated(["level", "condition"])]
     if len(twice):
         row = twice.iloc[0]
         raise LogError(f"{factor}={row['level']} was tried more than once with {row['condition']}; select some trials")
-    frames = {name: rows.set_index("condition") for name, rows in frame.groupby("level")}
+    frames = {name: frame[frame["level"] == name].set_index("condition") for name in names}
     return [_compare(first, frames[first], name, frames[name]) for name in names if name != first]
 
 
@@ -137,19 +111,19 @@ def conditions_between(table: pd.DataFrame, factor: str, levels: "pd.Series[str]
     """
     part = factor.split(".", maxsplit=1)[0]
     keys = [name for name in table.columns if "." in name and not name.startswith("log.")]
-    return [name for name in (*keys, *_BOTH) if name != factor and not _belongs(table, name, part, levels)]
+    return [name for name in (*keys, *VALUES) if name != factor and not _belongs(table, name, part, levels)]
 
 
 def _belongs(table: pd.DataFrame, name: str, part: str, levels: "pd.Series[str]") -> bool:
     """Whether a column is of the factor's part of the configuration and has one value within each of its levels."""
     if name.split(".", maxsplit=1)[0] != part or name == SEED:
         return False
-    pairs = pd.DataFrame({"level": levels, "value": levels_of(table, name)}).drop_duplicates()
+    pairs = pd.DataFrame({"level": levels, "value": texts_of(table[name])}).drop_duplicates()
     return not pairs["level"].duplicated().any()
 
 
 def _conditions(table: pd.DataFrame, factor: str, levels: "pd.Series[str]") -> "pd.Series[str]":
-    columns = [f"{name}=" + levels_of(table, name) for name in conditions_between(table, factor, levels)]
+    columns = [f"{name}=" + texts_of(table[name]) for name in conditions_between(table, factor, levels)]
     text = columns[0]
     for column in columns[1:]:
         text = text + " " + column
@@ -165,5 +139,5 @@ def _compare(first: str, one: pd.DataFrame, second: str, other: pd.DataFrame) ->
     return PairedComparison(first, second, success, metric, len(one) + len(other) - 2 * len(pairs))
 
 
-def _completed(table: pd.DataFrame) -> "pd.Series[bool]":
-    return (table["status"] == TrialStatus.COMPLETED.value).astype(bool)
+def _is(status: "pd.Series[str]", wanted: TrialStatus) -> "pd.Series[bool]":
+    return (status == wanted.value).astype(bool)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 import pandas as pd
 
 from quadlab.analysis.comparison import Group, PairedComparison
+from quadlab.analysis.factors import level_order
 from quadlab.analysis.statistics import Interval
 from quadlab.analysis.text_table import TextTable
 
@@ -13,8 +14,11 @@ NONE = "-"
 
 
 def success_table(groups: Sequence[Group], factors: Sequence[str]) -> TextTable:
-    """Return shares of completed trials with their 95 % intervals; a second factor goes into the columns."""
-    return _pivot(groups, factors, "completed", lambda group: share_text(group.success))
+    """Return shares of completed trials with their 95 % intervals; a second factor goes into the columns.
+
+    Where the program failed, how often stands beside the share.
+    """
+    return _pivot(groups, factors, "completed", _share_and_errors)
 
 
 def metric_table(groups: Sequence[Group], factors: Sequence[str], metric: str) -> TextTable:
@@ -61,9 +65,14 @@ def _pivot(groups: Sequence[Group], factors: Sequence[str], what: str, text: Cal
     if len(factors) == 1:
         return TextTable((factors[0], what), tuple((levels[0], shown) for levels, shown in cell.items()), labels=1)
     rows = list(dict.fromkeys(levels[0] for levels in cell))
-    columns = sorted({levels[1] for levels in cell})
+    columns = sorted({levels[1] for levels in cell}, key=level_order)
     header = (f"{what}: {factors[0]}", *(f"{factors[1]}={column}" for column in columns))
     return TextTable(header, tuple((r, *(cell.get((r, c), NONE) for c in columns)) for r in rows), labels=1)
+
+
+def _share_and_errors(group: Group) -> str:
+    share = share_text(group.success)
+    return f"{share}, {group.errors} error{'s' if group.errors > 1 else ''}" if group.errors else share
 
 
 def _median_and_max(values: Sequence[float]) -> str:

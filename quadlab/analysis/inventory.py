@@ -3,13 +3,15 @@
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import yaml
 
+from quadlab.analysis.yaml_text import load_yaml
 from quadlab.errors import LogError
 from quadlab.trials.identity import ID_LENGTH
 from quadlab.trials.job import CONFIG_FILE, ERROR_FILE
@@ -42,45 +44,41 @@ class TrialEntry:
         state: how far it is.
         result: if it has finished.
         reason: one line if it has failed or its result cannot be read.
-        config: its configuration as written; empty if that cannot be read.
-        commit: of the code that ran it; None if unknown.
     """
 
     directory: Path
     state: EntryState
     result: TrialResult | None = None
     reason: str = ""
-    config: Mapping[str, Any] = field(default_factory=dict)
-    commit: str | None = None
 
     @property
     def trial_id(self) -> str:
         """The name of the trial."""
         return self.directory.name
 
+    @cached_property
+    def config(self) -> Mapping[str, Any]:
+        """Its configuration as written, read when first asked for; empty if that cannot be read."""
+        return _mapping(self.directory / CONFIG_FILE, load_yaml)
+
+    @cached_property
+    def commit(self) -> str | None:
+        """The commit of the code that ran it; None if unknown."""
+        git = _mapping(self.directory / MANIFEST_FILE, json.loads).get("git")
+        commit = git.get("commit") if isinstance(git, dict) else None
+        return commit if isinstance(commit, str) else None
+
 
 def trial_entries(folder: Path) -> list[TrialEntry]:
-    """Return what is known of every trial below ``folder``, sorted by trial id.
+    """Return what is known of every trial below ``folder``, sorted by trial id; one may be there under several tags.
 
     Raises:
-        LogError: if there is no such folder, or two of its trials have the same id.
+        LogError: if there is no such folder.
     """
     if not folder.is_dir():
         raise LogError(f"{folder}: no such folder; expected one with trials in it, e.g. results/trials")
     found = [path for path in folder.rglob("*") if _TRIAL_NAME.fullmatch(path.name) and path.is_dir()]
-    names: dict[str, Path] = {}
-    for path in found:
-        if path.name in names:
-            raise LogError(f"{path} and {names[path.name]} are the same trial; name one folder of results at a time")
-        names[path.name] = path
-    return [_entry(names[name]) for name in sorted(names)]
-
-
-def _entry(directory: Path) -> TrialEntry:
-    state, result, reason = _state(directory)
-    config = _mapping(directory / CONFIG_FILE, yaml.safe_load)
-    git = _mapping(directory / MANIFEST_FILE, json.loads).get("git") or {}
-    return TrialEntry(directory, state, result, reason, config, git.get("commit"))
+    return [TrialEntry(path, *_state(path)) for path in sorted(found, key=lambda path: (path.name, path))]
 
 
 def _state(directory: Path) -> tuple[EntryState, TrialResult | None, str]:

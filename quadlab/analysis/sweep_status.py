@@ -5,12 +5,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from quadlab.analysis.collection import COMMIT_LENGTH
 from quadlab.analysis.inventory import EntryState, TrialEntry, trial_entries
+from quadlab.errors import LogError
 from quadlab.paths import checkout_dir
 from quadlab.sweeps.record import asked_for
+from quadlab.trials.job import CONFIG_FILE
 from quadlab.trials.manifest import git_state
 
-COMMIT_LENGTH = 10
+_NO_CONFIG = "config unreadable"
 
 
 @dataclass(frozen=True)
@@ -41,20 +44,30 @@ class SweepStatus:
         return [entry for entry in done if self.commit and entry.commit and entry.commit != self.commit]
 
     @property
+    def without_config(self) -> list[TrialEntry]:
+        """Finished trials of which nobody can say any more what they were."""
+        return [entry for entry in self.entries if entry.state is EntryState.FINISHED and not entry.config]
+
+    @property
     def complete(self) -> bool:
-        """Whether every trial has a result of the code as it is now."""
-        return not self.missing and not self.stale and all(e.state is EntryState.FINISHED for e in self.entries)
+        """Whether every trial has a result of the code as it is now, and its configuration."""
+        finished = all(entry.state is EntryState.FINISHED for entry in self.entries)
+        return finished and not (self.missing or self.stale or self.without_config)
 
     def lines(self) -> Iterator[str]:
         """Yield the counts in one line, then one line for each trial that is not finished or is stale."""
         yield f"{self.folder}: {self._counts()}"
         for entry in self.entries:
             if entry.state is not EntryState.FINISHED:
-                yield self._line(entry.state.value, entry.trial_id, entry.reason)
+                yield self._line(entry.state.value, entry.directory, entry.reason)
         for name in self.missing:
-            yield self._line("missing", name, "")
+            yield self._line("missing", self.folder / name, "")
+        for entry in self.without_config:
+            yield self._line(
+                _NO_CONFIG, entry.directory, f"no {CONFIG_FILE} that can be read; force=true runs it again"
+            )
         for entry in self.stale:
-            yield self._line("stale", entry.trial_id, f"commit {_short(entry.commit)}, now {_short(self.commit)}")
+            yield self._line("stale", entry.directory, f"commit {_short(entry.commit)}, now {_short(self.commit)}")
 
     def _counts(self) -> str:
         outcomes = Counter(entry.result.status.value for entry in self.entries if entry.result)
@@ -62,23 +75,31 @@ class SweepStatus:
         if outcomes:
             finished += f" ({', '.join(f'{count} {status}' for status, count in sorted(outcomes.items()))})"
         states = Counter(entry.state.value for entry in self.entries if entry.result is None)
-        rest: dict[str, int] = {**states, "missing": len(self.missing), "stale": len(self.stale)}
+        rest: dict[str, int] = {
+            **states,
+            "missing": len(self.missing),
+            _NO_CONFIG: len(self.without_config),
+            "stale": len(self.stale),
+        }
         asked = [f"{len(self.names)} asked for"] if self.names else []
         return ", ".join([*asked, finished, *(f"{count} {state}" for state, count in rest.items() if count)])
 
-    def _line(self, word: str, trial: str, reason: str) -> str:
-        named = f"{trial} ({self.names[trial]})" if trial in self.names else trial
+    def _line(self, word: str, directory: Path, reason: str) -> str:
+        trial, name = str(directory.relative_to(self.folder)), self.names.get(directory.name)
+        named = trial if name is None else f"{trial} ({name})"
         return f"  {word:12}  {named}{': ' if reason else ''}{reason}"
 
 
 def sweep_status(folder: Path) -> SweepStatus:
-    """Return the status of ``folder``, usually ``results/<tag>``.
+    """Return the status of ``folder``, usually ``results/<tag>``; of ``results``, that of all tags in it.
 
     Raises:
-        LogError: if it is not there or holds what cannot be read.
+        LogError: if it is not there, holds no trials and was never meant to, or holds what cannot be read.
     """
-    git = git_state(checkout_dir())
-    return SweepStatus(folder, tuple(trial_entries(folder)), asked_for(folder), git["commit"] if git else None)
+    entries, names, git = tuple(trial_entries(folder)), asked_for(folder), git_state(checkout_dir())
+    if not entries and not names:
+        raise LogError(f"{folder}: no trial in it, and no sweep asked for one; expected results/<tag>")
+    return SweepStatus(folder, entries, names, git["commit"] if git else None)
 
 
 def _short(commit: str | None) -> str:

@@ -1,5 +1,6 @@
 """A table as Markdown for people and as LaTeX for papers."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -15,8 +16,13 @@ _LATEX_SPECIAL = str.maketrans(
         "~": r"\textasciitilde{}",
         "^": r"\textasciicircum{}",
         "\\": r"\textbackslash{}",
+        "<": r"\textless{}",
+        ">": r"\textgreater{}",
+        "|": r"\textbar{}",
     }
 )
+_MINUS = re.compile(r"(?<![^\s(\[=/,])-(?=[.\d])|(?<=\de)-(?=\d)")
+"""A hyphen that is the sign of a number or of its exponent."""
 
 
 @dataclass(frozen=True)
@@ -50,4 +56,4 @@ def _markdown_line(cells: Sequence[str]) -> str:
 
 
 def _latex_line(cells: Sequence[str]) -> str:
-    return " & ".join(cell.translate(_LATEX_SPECIAL) for cell in cells) + r" \\"
+    return " & ".join(_MINUS.sub("$-$", cell.translate(_LATEX_SPECIAL)) for cell in cells) + r" \\"

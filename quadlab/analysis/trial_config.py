@@ -1,9 +1,9 @@
 """The configuration that a trial log carries."""
 
-import yaml
 from pydantic import ValidationError
 
 from quadlab.analysis.trial_log import TrialLog
+from quadlab.analysis.yaml_text import load_yaml
 from quadlab.errors import LogError
 from quadlab.trials.config import TrialConfig
 from quadlab.trials.recording.topics import CONFIG_ATTACHMENT
@@ -18,7 +18,7 @@ def logged_config(log: TrialLog) -> TrialConfig:
     if CONFIG_ATTACHMENT not in log.attachments:
         raise LogError(f"no attachment '{CONFIG_ATTACHMENT}'; attached are: {', '.join(sorted(log.attachments))}")
     try:
-        return TrialConfig.model_validate(yaml.safe_load(log.attachments[CONFIG_ATTACHMENT]))
+        return TrialConfig.model_validate(load_yaml(log.attachments[CONFIG_ATTACHMENT]))
     except ValidationError as error:
         first = error.errors()[0]
         key = ".".join(map(str, first["loc"]))

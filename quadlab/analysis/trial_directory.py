@@ -4,19 +4,21 @@ from pathlib import Path
 
 from quadlab.errors import LogError
 from quadlab.trials.recording.recorder import part_path
+from quadlab.trials.recording.recover import default_target
 from quadlab.trials.recording.topics import LOG_FILE
 from quadlab.trials.result import RESULT_FILE, read_result
 
 
 def find_log(directory: Path) -> Path:
-    """Return the path of the log in ``directory``.
+    """Return the path of the log in ``directory``: the trial's own, else one that ``quadlab recover`` rescued.
 
     Raises:
         LogError: if there is none; says what is there instead.
     """
     path = directory / LOG_FILE
-    if path.is_file():
-        return path
+    for log in (path, default_target(path)):
+        if log.is_file():
+            return log
     part = part_path(path)
     if part.is_file():
         raise LogError(f"{directory}: no {LOG_FILE}, but a trial that did not end; run 'quadlab recover {part}'")

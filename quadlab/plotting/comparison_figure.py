@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from quadlab.analysis.comparison import Group
+from quadlab.analysis.factors import level_order
 from quadlab.geometry.rotations import Array
 from quadlab.plotting.style import COLUMN_WIDTH, SERIES, paper_style
 
@@ -26,9 +27,9 @@ def comparison_figure(groups: Sequence[Group], factors: Sequence[str], metric: s
         figure = Figure(figsize=(COLUMN_WIDTH, _HEIGHT), layout="constrained")
         success, values = figure.subplots(2, 1, sharex=True)
         levels = list(dict.fromkeys(group.levels[0] for group in groups))
-        series = sorted({group.levels[1:] for group in groups})
+        series = sorted({group.levels[1:] for group in groups}, key=lambda key: tuple(map(level_order, key)))
         for number, key in enumerate(series):
-            chosen = [group for group in groups if group.levels[1:] == key]
+            chosen = [group for group in groups if group.levels[1:] == key and group.success.count]
             offset = _SPREAD * ((number + 0.5) / len(series) - 0.5)
             places = np.array([levels.index(group.levels[0]) + offset for group in chosen])
             colour = SERIES[number % len(SERIES)]

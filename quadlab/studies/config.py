@@ -121,5 +121,7 @@ def load_study(name: str) -> StudyConfig:
     except ValidationError as error:
         lines = validation_problems(StudyConfig, error)
         raise ConfigurationError("\n".join(f"study/{name}.yaml: {line}" for line in lines)) from error
+    except UnicodeDecodeError as error:
+        raise ConfigurationError(f"study/{name}.yaml: not UTF-8 ({error})") from error
     except yaml.YAMLError as error:
         raise ConfigurationError(f"study/{name}.yaml: not YAML ({error})") from error

@@ -82,12 +82,12 @@ def read_row(folder: StudyFolder, identifier: str, settings: str) -> dict[str, A
         return None
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
-    except json.JSONDecodeError:
+    except ValueError:
         return None  # half a file cannot happen, a damaged one is made again
-    if content.get("settings") != settings:
+    if not isinstance(content, dict) or content.get("settings") != settings:
         return None
-    row: dict[str, Any] = content["row"]
-    return row
+    row = content.get("row")
+    return row if isinstance(row, dict) else None
 
 
 def write_row(folder: StudyFolder, identifier: str, settings: str, row: dict[str, Any]) -> None:

@@ -1,9 +1,10 @@
 """What a sweep asked for, beside its trials, so that somebody can see later what is missing."""
 
 import hashlib
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+
+from pydantic import TypeAdapter, ValidationError
 
 from quadlab.errors import LogError
 from quadlab.sweeps.trial_pool import SweepTrial
@@ -13,6 +14,8 @@ from quadlab.trials.identity import ID_LENGTH, trial_id
 
 FOLDER = "sweeps"
 """In the folder of a tag: a file for each different sweep."""
+
+_NAMES = TypeAdapter(dict[str, str])
 
 
 def record_sweep(trials: Sequence[SweepTrial], options: RunOptions) -> list[Path]:
@@ -27,18 +30,25 @@ def record_sweep(trials: Sequence[SweepTrial], options: RunOptions) -> list[Path
 
 
 def asked_for(folder: Path) -> dict[str, str]:
-    """Return the names of all trials that any sweep into ``folder`` asked for, by trial id; empty if none is known.
+    """Return the names of all trials that any sweep into ``folder`` or a tag below it asked for, by trial id.
+
+    Empty if no sweep is known.
 
     Raises:
         LogError: if the record of a sweep cannot be read.
     """
     names: dict[str, str] = {}
-    for path in sorted((folder / FOLDER).glob("*.json")):
-        try:
-            names |= json.loads(path.read_text(encoding="utf-8"))
-        except (ValueError, TypeError) as error:
-            raise LogError(f"{path}: not the record of a sweep ({error}); remove it") from error
+    for path in sorted(folder.rglob(f"{FOLDER}/*.json")):
+        names |= _read(path)
     return names
+
+
+def _read(path: Path) -> dict[str, str]:
+    try:
+        return _NAMES.validate_json(path.read_bytes())
+    except ValidationError as error:
+        reason = error.errors()[0]["msg"]
+        raise LogError(f"{path}: not the record of a sweep ({reason}); remove it") from error
 
 
 def _write(folder: Path, names: Mapping[str, str]) -> Path:

@@ -65,7 +65,7 @@ def run_on_slurm(
         MissingDependencyError: without submitit.
         PoolError: if SLURM refuses the job or is not there.
     """
-    finished, missing = split_finished(unique_trials(trials), options)
+    finished, missing = split_finished(unique_trials(trials, progress), options)
     work = cells(missing, slurm.trials_per_task, options, pool)
     progress.begin(len(finished) + len(missing), min(len(work), slurm.tasks_at_a_time))
     try:

@@ -65,11 +65,9 @@ def run_trials(
         PoolError: if no process can be started.
     """
     shown = progress or SilentSweep()
-    unique = unique_trials(trials)
+    unique = unique_trials(trials, shown)
     shown.begin(len(unique), pool.worker_count)
     try:
-        if len(unique) < len(trials):
-            shown.notice(f"{len(trials) - len(unique)} trials are equal to others; they are run once")
         for outcome in _outcomes(unique, options, pool, shown):
             shown.ended(outcome.trial.name, outcome.job)
             yield outcome
@@ -77,11 +75,14 @@ def run_trials(
         shown.end()
 
 
-def unique_trials(trials: Sequence[SweepTrial]) -> list[SweepTrial]:
-    """Return the first of each set of equal trials, in the order given."""
+def unique_trials(trials: Sequence[SweepTrial], progress: SweepProgress | None = None) -> list[SweepTrial]:
+    """Return the first of each set of equal trials, in the order given, and tell ``progress`` of the others."""
     found: dict[str, SweepTrial] = {}
     for trial in trials:
         found.setdefault(trial_id(trial.config), trial)
+    equal = len(trials) - len(found)
+    if progress and equal:
+        progress.notice(f"{equal} trial{'s are' if equal > 1 else ' is'} equal to others and will be run once")
     return list(found.values())
 
 

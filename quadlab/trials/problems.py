@@ -8,13 +8,21 @@ from pydantic import BaseModel, ValidationError
 
 from quadlab.trials.parts import PartOf
 
+_SHOWN = 25
+"""That many names are still read; the robots, gaits and studies of quadlab are fewer."""
+
 
 def suggestion(name: str, known: Iterable[str]) -> str:
-    """Return "did you mean 'x'?; known: a, b, x" for a name that is not one of ``known``."""
+    """Return "did you mean 'x'?; known: a, b, x" for a name that is not one of ``known``; of many, the first."""
     options = sorted(known)
-    near = difflib.get_close_matches(name, options, 1)
-    hint = f"did you mean '{near[0]}'?; " if near else ""
-    return f"{hint}known: {', '.join(options) or 'none'}"
+    more = f" and {len(options) - _SHOWN} more" if len(options) > _SHOWN else ""
+    return f"{did_you_mean(name, options)}known: {', '.join(options[:_SHOWN]) or 'none'}{more}"
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Return "did you mean 'x'?; ", or nothing if none of ``known`` is like ``name``."""
+    near = difflib.get_close_matches(name, list(known), 1)
+    return f"did you mean '{near[0]}'?; " if near else ""
 
 
 def validation_problems(model: type[BaseModel], error: ValidationError) -> list[str]:

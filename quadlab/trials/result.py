@@ -136,9 +136,11 @@ def read_result(directory: Path) -> TrialResult:
         raise LogError(f"{path}: not found; a trial writes it when it has finished")
     try:
         return TrialResult.model_validate(json.loads(path.read_text(encoding="utf-8")))
-    except json.JSONDecodeError as error:
-        raise LogError(f"{path}: not JSON ({error})") from error
+    except OSError as error:
+        raise LogError(f"{path}: {error.strerror}") from error
     except ValidationError as error:
         first = error.errors()[0]
         key = ".".join(map(str, first["loc"]))
         raise LogError(f"{path}: not a result of schema {SCHEMA_VERSION} ({key}: {first['msg']})") from error
+    except ValueError as error:  # no JSON, or not even text
+        raise LogError(f"{path}: not JSON ({error})") from error

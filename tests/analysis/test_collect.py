@@ -27,6 +27,26 @@ def test_failures_are_rows_with_names_and_reason(tmp_path: Path) -> None:
     assert set(table["commit"]) == {COMMIT}
 
 
+@pytest.mark.parametrize(
+    ("file", "content"),
+    [
+        ("result.json", b"\xff\xfe"),
+        ("manifest.json", b'{"git": "abc"}'),
+        ("manifest.json", b'{"git": {"commit": 5}}'),
+        ("config.yaml", b"robot: anymal_b\nestimator: [1]\nseed: abc\nduration_s: [2]"),
+        ("config.yaml", b"\xff\xfe"),
+    ],
+)
+def test_one_damaged_file_costs_no_row_and_no_other_trial(tmp_path: Path, file: str, content: bytes) -> None:
+    finish(tmp_path, "seed=1")
+    damaged = finish(tmp_path, "seed=2")
+    (damaged / "result.json").write_text("{")
+    (damaged / file).write_bytes(content)
+    table = collect_trials(tmp_path)
+    assert sorted(table["status"]) == ["completed", "error"]
+    assert table.loc[damaged.name, "robot"] in ("anymal_b", "unknown")
+
+
 def test_types_survive_missing_values_and_parquet(tmp_path: Path) -> None:
     finish(tmp_path, "seed=1", "controller=weighted")
     fail(tmp_path, "seed=2", "controller.rate_hz=200")

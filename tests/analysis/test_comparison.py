@@ -2,11 +2,14 @@
 
 from pathlib import Path
 
+import pandas as pd
 import pytest
-from trial_folders import finish
+from trial_folders import begin, fail, finish
 
 from quadlab.analysis.collect import collect_trials
 from quadlab.analysis.comparison import grouped, paired
+from quadlab.analysis.comparison_tables import success_table
+from quadlab.analysis.factors import level_order, texts_of
 from quadlab.analysis.statistics import wilson_interval
 from quadlab.analysis.text_table import TextTable
 from quadlab.cli import main
@@ -80,13 +83,108 @@ def test_seeds_that_differ_between_the_levels_make_no_pairs(tmp_path: Path) -> N
     ("factor", "metric", "baseline", "message"),
     [
         ("controler", METRIC, None, "did you mean 'controller'"),
-        ("controller", "com_error", None, "'com_error' is no numerical column"),
+        ("controller.rate", METRIC, None, "or a dotted key, see the header of trials.csv"),
+        ("scenario", METRIC, None, "scenario is '.*' in all trials, there is nothing to compare"),
+        (METRIC, METRIC, None, "'com_error_rms_mm' is an outcome, no factor"),
+        ("status", METRIC, None, "'status' is an outcome, no factor"),
+        ("commit", METRIC, None, "'commit' is no factor"),
+        ("controller", "com_error", None, "'com_error' is no outcome that is a number"),
+        ("controller", "seed", None, "'seed' is no outcome that is a number"),
         ("controller", METRIC, "weigthed", "did you mean 'weighted'"),
     ],
 )
 def test_mistakes_name_what_exists(folder: Path, factor: str, metric: str, baseline: str | None, message: str) -> None:
-    with pytest.raises(LogError, match=message):
+    with pytest.raises(LogError, match=message) as raised:
         paired(collect_trials(folder), factor, metric, baseline)
+    assert len(str(raised.value)) < 1000
+
+
+def test_same_factor_twice_is_refused(folder: Path) -> None:
+    with pytest.raises(LogError, match="'gait' is named twice"):
+        grouped(collect_trials(folder), ["gait", "gait"], METRIC)
+
+
+@pytest.fixture(scope="module")
+def rates(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Three rates and three seeds; the fastest stands for two more trials whose program failed."""
+    results = tmp_path_factory.mktemp("rates")
+    for rate in (80, 100, 400):
+        for seed in (2, 10, 1):
+            where = (f"controller.rate_hz={rate}", f"seed={seed}")
+            (fail if rate == 400 and seed != 1 else finish)(results, *where)
+    return results
+
+
+def test_numbers_are_ordered_by_value_everywhere(rates: Path) -> None:
+    table = collect_trials(rates)
+    groups = grouped(table, ["seed", "controller.rate_hz"], METRIC)
+    assert list(dict.fromkeys(group.levels[0] for group in groups)) == ["1", "2", "10"]
+    shown = success_table(groups, ["seed", "controller.rate_hz"])
+    assert shown.header[1:] == tuple(f"controller.rate_hz={rate}" for rate in ("80", "100", "400"))
+    comparisons = paired(table, "controller.rate_hz", METRIC)
+    assert [(one.first, one.second) for one in comparisons] == [("80", "100"), ("80", "400")]
+
+
+@pytest.mark.parametrize("baseline", ["100", "100.0", "1e2"])
+def test_baseline_may_be_written_as_any_equal_number(rates: Path, baseline: str) -> None:
+    comparisons = paired(collect_trials(rates), "controller.rate_hz", METRIC, baseline)
+    assert [comparison.first for comparison in comparisons] == ["100", "100"]
+
+
+def test_unlike_numbers_are_unlike_levels() -> None:
+    values = [0.1, 0.1 + 1e-15, 400.0, 1e-7, 1000000.0, None]
+    words = list(texts_of(pd.Series(values, dtype="Float64")))
+    assert words[0] == "0.1"
+    assert words[2:] == ["400", "1e-07", "1000000", "none"]
+    assert len(set(words)) == len(values)
+    assert sorted(words, key=level_order)[-2:] == ["1000000", "none"]
+
+
+def test_errors_of_the_program_are_no_failures_of_the_controller(rates: Path) -> None:
+    *_, fastest = grouped(collect_trials(rates), ["controller.rate_hz"], METRIC)
+    assert (fastest.levels, fastest.success, fastest.errors) == (("400",), wilson_interval(1, 1), 2)
+    *_, comparison = paired(collect_trials(rates), "controller.rate_hz", METRIC)
+    assert comparison.success.estimate == 0.0
+    assert (comparison.success.count, comparison.unpaired) == (1, 2)
+    assert success_table([fastest], ["x"]).rows == (("400", "1 of 1 (21 to 100 %), 2 errors"),)
+
+
+def test_level_in_which_every_program_failed_is_shown_and_drawn(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    finish(tmp_path, "seed=1")
+    fail(tmp_path, "seed=1", "controller=weighted")
+    assert main(["compare", str(tmp_path), "--by", "controller", "--baseline", "weighted"]) == 0
+    shown = capsys.readouterr().out
+    assert "| weighted | -, 1 error |" in shown
+    assert "| hierarchical | weighted | - | 0 | - | 0 | 1 |" in shown
+    assert "\n1 ended in an error.\n" in shown
+    assert (tmp_path / f"compare/{METRIC}_by_controller_from_weighted.md").is_file()
+
+
+def test_what_is_left_out_and_pooled_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    finish(tmp_path, "seed=1")
+    finish(tmp_path, "seed=1", "controller=weighted", commit="d" * 40)
+    begin(tmp_path, "seed=2")
+    for command in (["collect"], ["compare", "--by", "controller"]):
+        assert main([command[0], str(tmp_path), *command[1:]]) == 0
+        shown = capsys.readouterr().out
+        assert "1 half-written left out" in shown
+        assert "trials of 2 commits: cccccccccc, dddddddddd" in shown
+
+
+def test_missing_configuration_costs_its_own_pair_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for seed in range(3):
+        finish(tmp_path, f"seed={seed}")
+        last = finish(tmp_path, f"seed={seed}", "controller=weighted")
+    columns = len(collect_trials(tmp_path).columns)
+    (last / "config.yaml").unlink()
+    assert len(collect_trials(tmp_path).columns) == columns
+    assert main(["compare", str(tmp_path), "--by", "controller"]) == 0
+    shown = capsys.readouterr().out
+    assert "| weighted | hierarchical | +0 % (" in shown
+    assert "| 2 | +0 (+0 to +0) | 2 | 1 |" in shown
+    assert f"no config.yaml that can be read, left out of comparisons: {last.name}" in shown
 
 
 def test_files_of_a_comparison(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -106,3 +204,19 @@ def test_latex_special_characters_are_escaped() -> None:
     assert r"x \& y & \#1 \\" in table.latex()
     assert r"a\_b & 50 \% \\" in table.latex()
     assert r"| \| | $2 |" in table.markdown()
+    assert r"\textbar{} & \$2 \\" in table.latex()
+    assert r"\textless{}b\textgreater{}" in TextTable(("<b>",), (), labels=1).latex()
+
+
+@pytest.mark.parametrize(
+    ("cell", "shown"),
+    [
+        ("-0.3 (-0.4 to +0.1)", "$-$0.3 ($-$0.4 to +0.1)"),
+        ("-1e-05", "$-$1e$-$05"),
+        ("x=-5", "x=$-$5"),
+        ("push-3 and a-b", "push-3 and a-b"),
+        ("-", "-"),
+    ],
+)
+def test_latex_minus_is_a_minus_and_a_hyphen_stays_one(cell: str, shown: str) -> None:
+    assert rf"{shown} \\" in TextTable(("a",), ((cell,),), labels=1).latex()

@@ -3,9 +3,14 @@
 from pathlib import Path
 
 import pytest
+import yaml
+from synthetic_records import write_log
 from trial_folders import begin, fail, finish, options
 
+from quadlab.analysis import inventory, yaml_text
 from quadlab.analysis import sweep_status as status_module
+from quadlab.analysis.clean import find_litter
+from quadlab.analysis.trial_directory import find_log
 from quadlab.cli import main
 from quadlab.sweeps.record import record_sweep
 from quadlab.sweeps.trial_pool import SweepTrial
@@ -44,6 +49,57 @@ def test_every_trial_that_is_not_fine_is_named(folder: Path, capsys: pytest.Capt
     assert len(lines) == 5
 
 
+def _record(results: Path, tag: str, *seeds: int) -> None:
+    config = compose_trial([f"tag={tag}"])
+    trials = [SweepTrial(f"seed={seed}", config.model_copy(update={"seed": seed})) for seed in seeds]
+    record_sweep(trials, options(results))
+
+
+def test_what_a_tag_lacks_its_parent_lacks_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(status_module, "git_state", lambda _: {"commit": OLD})
+    _record(tmp_path, "one", 0)
+    _record(tmp_path, "two", 0, 1)
+    for tag in ("one", "two"):
+        finish(tmp_path, "seed=0", f"tag={tag}")
+    assert main(["status", str(tmp_path / "two")]) == 1
+    assert main(["status", str(tmp_path)]) == 1
+    shown = capsys.readouterr().out
+    assert shown.count("2 asked for") == 2
+    assert shown.count("missing") == 4
+    assert "  stale         one/" in shown
+
+
+@pytest.mark.parametrize("inside", ["", "tag/sweeps", "tag/0123456789abcdef"])
+def test_folder_without_trials_is_a_mistake(tmp_path: Path, inside: str, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / inside).mkdir(parents=True, exist_ok=True)
+    assert main(["status", str(tmp_path / inside)]) == 2
+    assert capsys.readouterr().err == (
+        f"quadlab: {tmp_path / inside}: no trial in it, and no sweep asked for one; expected results/<tag>\n"
+    )
+
+
+@pytest.mark.parametrize("content", [b"\xff", b"{", b'["ab"]', b'{"0": 1}'])
+def test_record_that_is_none_is_one_line(tmp_path: Path, content: bytes, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "sweeps").mkdir()
+    (tmp_path / "sweeps/x.json").write_bytes(content)
+    assert main(["status", str(tmp_path)]) == 2
+    assert capsys.readouterr().err.startswith(f"quadlab: {tmp_path}/sweeps/x.json: not the record of a sweep (")
+
+
+def test_finished_trial_without_its_configuration_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(status_module, "git_state", lambda _: None)
+    directory = finish(tmp_path, "seed=0")
+    (directory / "config.yaml").unlink()
+    assert main(["status", str(tmp_path)]) == 1
+    first, line = capsys.readouterr().out.splitlines()
+    assert first.endswith("1 finished (1 completed), 1 config unreadable")
+    assert line.startswith(f"  config unreadable  trials/{directory.name}: no config.yaml that can be read")
+
+
 def test_complete_folder_is_exit_code_0(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(status_module, "git_state", lambda _: None)
     finish(tmp_path, "seed=0")
@@ -72,11 +128,36 @@ def test_clean_keeps_every_result_even_one_that_cannot_be_read(folder: Path) -> 
     assert len([path for path in folder.iterdir() if len(path.name) == 16]) == 3
 
 
+def test_clean_needs_no_configuration(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: object) -> None:
+        raise AssertionError("a configuration was read")
+
+    monkeypatch.setattr(inventory, "load_yaml", refuse)
+    assert find_litter(folder)
+
+
+def test_yaml_is_read_by_libyaml_where_it_is_there() -> None:
+    assert (yaml_text.LOADER is not yaml.SafeLoader) == yaml.__with_libyaml__
+    assert yaml_text.load_yaml("a: [1, 2.5, null, true, x]") == {"a": [1, 2.5, None, True, "x"]}
+
+
 def test_clean_asks_first(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = sorted(folder.rglob("*"))
     assert main(["clean", str(folder)]) == 2
     assert "--yes" in capsys.readouterr().err
     assert sorted(folder.rglob("*")) == before
+
+
+def test_clean_keeps_a_recovered_log(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    directory, _ = begin(tmp_path, "seed=0")
+    write_log(directory / "whole.mcap", ticks=5).rename(directory / "trial.mcap.part")
+    assert main(["recover", str(directory / "trial.mcap.part")]) == 0
+    rescued = find_log(directory)
+    assert main(["clean", str(tmp_path), "--yes"]) == 0
+    assert list(directory.iterdir()) == [rescued]
+    capsys.readouterr()
+    assert main(["clean", str(tmp_path), "--yes"]) == 0
+    assert capsys.readouterr().out == f"{tmp_path}: nothing that never finished\n"
 
 
 def test_clean_leaves_what_somebody_else_put_there(tmp_path: Path) -> None:

@@ -1,12 +1,14 @@
 """A sweep gives what single trials give, whatever the number of workers, and loses none of them."""
 
+import io
 import json
 from pathlib import Path
 
 import pytest
 from sweep_cases import FREE, run, standing
 
-from quadlab.sweeps.trial_pool import SweepTrial, run_trials
+from quadlab.sweeps.terminal import PlainSweep
+from quadlab.sweeps.trial_pool import SweepTrial, run_trials, unique_trials
 from quadlab.trials.config import RunOptions
 from quadlab.trials.job import run_job, trial_directory
 from quadlab.trials.progress import SilentProgress
@@ -36,6 +38,15 @@ def test_finished_trials_are_not_run_again_and_equal_ones_are_run_once(tmp_path:
     assert not first["seed=0"].skipped
     assert {name: job.skipped for name, job in again.items()} == {"seed=0": True, "seed=1": False}
     assert log.stat().st_mtime_ns == written
+
+
+def test_equal_trials_are_said_to_be_run_once() -> None:
+    stream = io.StringIO()
+    trials = standing(2)
+    assert unique_trials([*trials, *trials], PlainSweep(stream)) == trials
+    assert "2 trials are equal to others and will be run once" in stream.getvalue()
+    assert unique_trials(trials, PlainSweep(stream)) == trials
+    assert stream.getvalue().count("equal") == 1
 
 
 def test_trial_that_takes_too_long_leaves_its_reason_and_no_result(tmp_path: Path) -> None:

@@ -98,6 +98,20 @@ def test_foreign_or_broken_result_says_so(text: str, expected: str, tmp_path: Pa
         read_result(tmp_path)
 
 
+def test_result_that_is_not_text_or_cannot_be_opened_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / RESULT_FILE
+    path.write_bytes(b"\xff\xfe")
+    with pytest.raises(LogError, match=r"result\.json: not JSON \('utf-8' codec"):
+        read_result(tmp_path)
+
+    def refuse(*_: object, **__: object) -> str:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "read_text", refuse)
+    with pytest.raises(LogError, match=r"result\.json: Permission denied"):
+        read_result(tmp_path)
+
+
 def test_failed_write_leaves_the_old_file_and_no_other(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "a.json"
     write_json(path, {"x": 1})

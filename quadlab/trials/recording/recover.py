@@ -45,7 +45,7 @@ def recover_log(part: Path, target: Path) -> RecoveryReport:
     if not part.is_file():
         raise LogError(f"{part}: not found; expected a log that was cut short, usually *.mcap{PART_SUFFIX}")
     if target.exists():
-        raise LogError(f"{target}: exists already; remove it or name another target")
+        raise LogError(f"{target}: exists already; remove or rename it first")
     with part.open("rb") as stream:
         records = StreamReader(_WholeReads(stream), validate_crcs=True, record_size_limit=part.stat().st_size).records
         profile = _profile_of(records, part)
@@ -57,8 +57,12 @@ def recover_log(part: Path, target: Path) -> RecoveryReport:
 
 
 def default_target(part: Path) -> Path:
-    """Return where a recovered log goes if nobody says: ``x.mcap.part`` to ``x.mcap``, else ``x.recovered.mcap``."""
-    return part.with_suffix("") if part.suffix == PART_SUFFIX else part.with_suffix(f".recovered{part.suffix}")
+    """Return where a recovered log goes: ``x.mcap.part`` and ``x.mcap`` both to ``x.recovered.mcap``.
+
+    A name that no trial writes, so that ``quadlab clean`` never takes it for what a trial left.
+    """
+    log = part.with_suffix("") if part.suffix == PART_SUFFIX else part
+    return log.with_suffix(f".recovered{log.suffix}")
 
 
 class _WholeReads:

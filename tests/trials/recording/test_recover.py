@@ -50,7 +50,7 @@ def test_every_whole_chunk_of_a_cut_file_is_recovered(tmp_path: Path, seed: int)
     report = recover_log(part, default_target(part))
     kept = sum(count for end, count in chunks if end <= cut)
     assert report.messages == kept
-    assert _messages(tmp_path / "trial.mcap") == _messages(whole)[:kept]
+    assert _messages(tmp_path / "trial.recovered.mcap") == _messages(whole)[:kept]
     assert report.last_time_s == pytest.approx(max(time for _, time, _ in _messages(whole)[:kept]) / 1e9)
     assert report.reason != COMPLETE
     assert part.read_bytes() == content[:cut]
@@ -116,6 +116,9 @@ def test_missing_and_foreign_files_are_clear_errors(tmp_path: Path) -> None:
         recover_log(tmp_path / "text.mcap", tmp_path / "out.mcap")
 
 
-@pytest.mark.parametrize(("part", "target"), [("trial.mcap.part", "trial.mcap"), ("x.mcap", "x.recovered.mcap")])
+@pytest.mark.parametrize(
+    ("part", "target"),
+    [("trial.mcap.part", "trial.recovered.mcap"), ("x.mcap", "x.recovered.mcap"), ("y.part", "y.recovered")],
+)
 def test_default_target_is_another_file_beside_the_part(part: str, target: str) -> None:
     assert default_target(Path(part)) == Path(target)

@@ -1,0 +1,32 @@
+"""What a study remembers: a damaged file is as good as none."""
+
+from pathlib import Path
+
+import pytest
+
+from quadlab.errors import ConfigurationError
+from quadlab.studies import config
+from quadlab.studies.files import StudyFolder, read_row, write_row
+
+
+def test_remembered_row_comes_back_for_the_same_settings_only(tmp_path: Path) -> None:
+    folder = StudyFolder(tmp_path)
+    write_row(folder, "a", "settings", {"x": 1})
+    assert read_row(folder, "a", "settings") == {"x": 1}
+    assert read_row(folder, "a", "others") is None
+
+
+@pytest.mark.parametrize("content", [b"\xff", b"{", b"[1]", b'{"settings": "s"}', b'{"settings": "s", "row": 3}'])
+def test_damaged_row_is_made_again(tmp_path: Path, content: bytes) -> None:
+    folder = StudyFolder(tmp_path)
+    write_row(folder, "a", "s", {})
+    folder.row("a").write_bytes(content)
+    assert read_row(folder, "a", "s") is None
+
+
+def test_study_that_is_no_text_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "study").mkdir()
+    (tmp_path / "study/x.yaml").write_bytes(b"title: \xff")
+    monkeypatch.setattr(config, "CONF_DIR", tmp_path)
+    with pytest.raises(ConfigurationError, match=r"^study/x\.yaml: not UTF-8 \(.*\)$"):
+        config.load_study("x")
