@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from quadlab.errors import QuadlabError
+from quadlab.errors import QuadlabError, os_error_line
 from quadlab.studies.config import study_names
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.runner import run_studies
@@ -28,6 +28,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for line in str(error).splitlines():
             sys.stderr.write(f"quadlab: {line}\n")
         return EXIT_USAGE
+    except OSError as error:
+        sys.stderr.write(f"quadlab: {os_error_line(error)}\n")
+        return EXIT_FAILED
     except KeyboardInterrupt:
         sys.stderr.write("quadlab: interrupted; what is done stays, run the same command to go on\n")
         return EXIT_INTERRUPTED
