@@ -10,7 +10,7 @@ from quadlab.studies.condition import Condition, conditions
 from quadlab.studies.config import StudyConfig, load_study
 from quadlab.studies.files import StudyFolder
 from quadlab.studies.progress import StudyProgress
-from quadlab.studies.rows import Row
+from quadlab.studies.rows import FAILURE, Row
 from quadlab.studies.work import Work, remembered
 from quadlab.trials.result import TrialStatus
 
@@ -39,8 +39,15 @@ class OpenCondition:
         """Take in the row of a job."""
         self.rows.append((job, row))
         if self.search is not None:
-            value = float(job.levels[self.search.config.label])
-            self.search.record(value, row["status"] == TrialStatus.COMPLETED)
+            self._record(self.search, float(job.levels[self.search.config.label]), row)
+
+    @staticmethod
+    def _record(search: BoundarySearch, value: float, row: Row) -> None:
+        """Take in what came of a value; an error of the program says nothing about the robot."""
+        if row["status"] == TrialStatus.ERROR:
+            search.give_up(f"error at {value:g}: {row.get(FAILURE)}")
+        else:
+            search.record(value, row["status"] == TrialStatus.COMPLETED)
 
 
 @dataclass
