@@ -24,6 +24,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     progress = StudyProgress()
     try:
         errors = run_studies(options.study, options.results, options.jobs, progress)
+        for name in options.study:
+            report = options.results / name / "report.md"
+            progress.say(f"{report}:\n{report.read_text(encoding='utf-8')}")
     except QuadlabError as error:
         for line in str(error).splitlines():
             sys.stderr.write(f"quadlab: {line}\n")
@@ -34,9 +37,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("quadlab: interrupted; what is done stays, run the same command to go on\n")
         return EXIT_INTERRUPTED
-    for name in options.study:
-        report = options.results / name / "report.md"
-        progress.say(f"{report}:\n{report.read_text(encoding='utf-8')}")
     return EXIT_FAILED if errors else 0
 
 

@@ -5,9 +5,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeAlias
 
+from quadlab.errors import ConfigurationError
 from quadlab.studies.boundary import BoundarySearch
 from quadlab.studies.condition import Condition, conditions
 from quadlab.studies.config import StudyConfig, load_study
+from quadlab.studies.consistency import study_problems
 from quadlab.studies.files import StudyFolder
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.rows import FAILURE, Row
@@ -98,5 +100,9 @@ def open_study(name: str, results: Path) -> OpenStudy:
         ConfigurationError: if there is no such study, or something in it is wrong.
     """
     config = load_study(name)
-    opened = [OpenCondition(c, BoundarySearch(c.search) if c.search else None) for c in conditions(config)]
+    found = conditions(config)
+    problems = [f"study/{name}.yaml: {problem}" for problem in study_problems(config, found)]
+    if problems:
+        raise ConfigurationError("\n".join(problems))
+    opened = [OpenCondition(c, BoundarySearch(c.search) if c.search else None) for c in found]
     return OpenStudy(name, config, StudyFolder(results / name), opened)
