@@ -1,15 +1,16 @@
 """The console command ``quadlab``: run trials or plan alone, look at what they left, rescue a log."""
 
 import argparse
+import os
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 
 from quadlab import __version__, sweep_commands
-from quadlab.errors import QuadlabError
+from quadlab.errors import QuadlabError, os_error_line
 
-EXIT_FAILED, EXIT_USAGE = 1, 2
+EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 130
 
 _EPILOG = """
 quadlab run --help lists what can be overridden. Without a command, quadlab runs a trial:
@@ -24,6 +25,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: without the program's name; those of the process by default.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        code = _answer(given)
+        sys.stdout.flush()  # here, where a reader that has gone is no traceback yet
+    except KeyboardInterrupt:
+        sys.stderr.write("quadlab: interrupted\n")
+        return EXIT_INTERRUPTED
+    except QuadlabError as error:
+        sys.stderr.write(f"quadlab: {error}\n")
+        return EXIT_USAGE
+    except BrokenPipeError:
+        _close_stdout()
+        return EXIT_FAILED
+    except OSError as error:
+        sys.stderr.write(f"quadlab: {os_error_line(error)}\n")
+        return EXIT_FAILED
+    return code
+
+
+def _answer(given: Sequence[str]) -> int:
+    """Do what the arguments ask for; everything heavy is imported in here."""
     if given and given[0] == "run":
         return _run(given[1:])
     if given and given[0] == "plan":
@@ -32,14 +53,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _run(given)
     options = _parser().parse_args(given)
     action: Callable[[argparse.Namespace], int] = options.action
-    try:
-        return action(options)
-    except QuadlabError as error:
-        sys.stderr.write(f"quadlab: {error}\n")
-        return EXIT_USAGE
-    except OSError as error:  # a full disk, a folder that nobody may write to
-        sys.stderr.write(f"quadlab: {error.filename}: {error.strerror}\n")
-        return EXIT_FAILED
+    return action(options)
+
+
+def _close_stdout() -> None:
+    """Send what is left of the output nowhere, so that Python does not try again to write it when it ends."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)
 
 
 def _is_override(given: Sequence[str]) -> bool:

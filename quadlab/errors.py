@@ -30,3 +30,15 @@ class PoolError(QuadlabError):
 
 class MissingDependencyError(QuadlabError):
     """A system library or optional package that the requested action needs."""
+
+
+def os_error_line(error: OSError) -> str:
+    """Return "path: reason" for a full disk, say, or a folder that nobody may write to; one line without a path too."""
+    if error.filename is not None and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return one_line(str(error)) or type(error).__name__
+
+
+def one_line(text: str) -> str:
+    """Return the lines of ``text`` in one, parted by semicolons."""
+    return "; ".join(line.strip() for line in text.splitlines() if line.strip())

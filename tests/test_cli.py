@@ -3,12 +3,14 @@
 import os
 import subprocess
 import sys
+from importlib.abc import MetaPathFinder
 from pathlib import Path
 
 import pytest
 
 from quadlab import __version__
 from quadlab.cli import main
+from quadlab.errors import os_error_line
 
 
 def _quadlab(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
@@ -70,6 +72,52 @@ def test_missing_trial_is_one_line_and_exit_code_2(
     assert error.startswith("quadlab: ")
     assert "nothing" in error
     assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize("command", ["run", "plan", "collect"])
+def test_interrupt_is_one_line_and_exit_code_130_also_while_loading(
+    command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    module = {
+        "run": "quadlab.sweeps.main",
+        "plan": "quadlab.plotting.plan_files",
+        "collect": "quadlab.analysis.collect",
+    }
+
+    class Interrupted(MetaPathFinder):
+        def find_spec(self, name: str, *_: object) -> None:
+            if name == module[command]:
+                raise KeyboardInterrupt
+
+    monkeypatch.delitem(sys.modules, module[command], raising=False)
+    monkeypatch.setattr(sys, "meta_path", [Interrupted(), *sys.meta_path])
+    assert main([command, str(tmp_path)]) == 130
+    assert capsys.readouterr().err == "quadlab: interrupted\n"
+
+
+def test_reader_of_the_output_that_has_gone_is_no_error_message(tmp_path: Path) -> None:
+    code = "import sys; from quadlab.cli import main; input(); sys.exit(main(['run', '--help']))"
+    command = [sys.executable, "-c", code]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, cwd=tmp_path, stdin=pipe, stdout=pipe, stderr=pipe, text=True) as process:
+        assert process.stdin and process.stdout and process.stderr
+        process.stdout.close()
+        process.stdin.write("\n")
+        process.stdin.flush()
+        assert process.stderr.read() == ""
+    assert process.returncode == 1
+
+
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (OSError(28, "No space left on device", "results/x"), "results/x: No space left on device"),
+        (OSError("Failed to open\n  'x'"), "Failed to open; 'x'"),
+        (OSError(), "OSError"),
+    ],
+)
+def test_every_error_of_the_file_system_is_one_line(error: OSError, line: str) -> None:
+    assert os_error_line(error) == line
 
 
 def test_unknown_command_names_the_known_ones(capsys: pytest.CaptureFixture[str]) -> None:

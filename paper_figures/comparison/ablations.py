@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from paper_figures.known_limits import known_limits
 from paper_figures.push_limits import speeds_mps
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
@@ -51,7 +52,7 @@ def stacked(values: "pd.Series[float]") -> Array:
 
 
 def _speeds(results: StudyResults) -> pd.DataFrame:
-    limits = results.limits(STUDY)
+    limits = known_limits(results, STUDY)
     return limits.assign(mps=speeds_mps(limits))
 
 

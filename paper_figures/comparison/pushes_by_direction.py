@@ -7,6 +7,7 @@ from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MultipleLocator
 
 from paper_figures.comparison_variants import COLOURS, CONTROLLERS, DASHES, PLANNERS, STUDY, artefact
+from paper_figures.known_limits import known_limits
 from paper_figures.push_limits import speeds_mps
 from quadlab.analysis.artefact import Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
@@ -66,7 +67,7 @@ def numbers(results: StudyResults) -> pd.DataFrame:
 
 def _speeds(results: StudyResults) -> pd.DataFrame:
     """Return one row a direction and phase of all pushes, with J / m in [m/s]."""
-    limits = results.limits(STUDY)
+    limits = known_limits(results, STUDY)
     pushes = limits[limits["disturbance"] == "push"]
     return pushes.assign(direction_deg=pushes["direction"].astype(float), mps=speeds_mps(pushes))
 

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from paper_figures.comparison_variants import FACTORS, STUDY, artefact
+from paper_figures.known_limits import known_limits
 from paper_figures.push_limits import ANYMAL_KG, PUSH_S
 from quadlab.analysis.artefact import Claim, Verdict
 from quadlab.analysis.paired import mean_difference
@@ -101,7 +102,7 @@ def _draw_difference(axes: Axes, entry: "pd.Series[float]", *, label: bool) -> N
 
 def numbers(results: StudyResults) -> pd.DataFrame:
     """Return one row a question and measure: mean of both, difference and its 95 % interval."""
-    return pd.DataFrame(list(_rows(results.table(STUDY), results.limits(STUDY))))
+    return pd.DataFrame(list(_rows(results.table(STUDY), known_limits(results, STUDY))))
 
 
 def _rows(table: pd.DataFrame, limits: pd.DataFrame) -> Iterator[dict[str, object]]:

@@ -5,6 +5,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from paper_figures.known_limits import known_limits
 from paper_figures.push_limits import ANYMAL_KG, PUSH_S, limit_claims, speeds_mps
 from paper_figures.trial_claims import PAPER_STACK, PAPER_STACK_WHY, VARIANTS, completed, survival
 from quadlab.analysis.artefact import Artefact, Claim, verdict
@@ -113,7 +114,7 @@ def claims(results: StudyResults) -> list[Claim]:
     off_mm = 1e3 * (trace["control.com_reference_y"] - planned_y(results.plan(STUDY, "push"), trace))
     moved_mm = float(off_mm.iloc[-1] - off_mm.loc[: pushed[0]].iloc[-1])
     push_mps = float(trace["state.push_force_y"].abs().max()) * PUSH_S / ANYMAL_KG
-    right = at_push(results.limits(LIMITS), float(pushed[0]))
+    right = at_push(known_limits(results, LIMITS), float(pushed[0]))
     name = f"after a push to the right of {push_mps:.2g} m/s"
     return [
         *(
@@ -129,7 +130,7 @@ def claims(results: StudyResults) -> list[Claim]:
             f"by {abs(moved_mm):.0f} mm to the {'left' if moved_mm > 0.0 else 'right'}",
             verdict(holds=abs(moved_mm) > 10.0),
         ),
-        *limit_claims(results.limits(LIMITS), results.table(LIMITS), NEEDED_MPS, f"walk, {PUSH_S} s, ekf"),
+        *limit_claims(known_limits(results, LIMITS), results.table(LIMITS), NEEDED_MPS, f"walk, {PUSH_S} s, ekf"),
     ]
 
 

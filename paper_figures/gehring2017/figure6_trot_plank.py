@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from paper_figures.known_limits import known_limits
 from paper_figures.trial_claims import paper_stack, survival, variant_claims
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
@@ -62,7 +63,7 @@ def numbers(results: StudyResults) -> pd.DataFrame:
 
 def claims(results: StudyResults) -> list[Claim]:
     """Return which heights are passed at how many places, the highest, and what holds the robot up."""
-    table, limits = results.table(STUDY), results.limits(STUDY)
+    table, limits = results.table(STUDY), known_limits(results, STUDY)
     reference = table[table["variant"] == "reference"]
     heights = [
         survival(

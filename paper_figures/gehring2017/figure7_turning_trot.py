@@ -5,6 +5,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from paper_figures.known_limits import known_limits
 from paper_figures.push_limits import PUSH_S, limit_claims
 from paper_figures.trial_claims import paper_stack, survival, variant_claims
 from quadlab.analysis.artefact import Artefact, Claim, verdict
@@ -105,7 +106,9 @@ def claims(results: StudyResults) -> list[Claim]:
         ),
         _deviation(curves),
         *variant_claims(table),
-        *limit_claims(results.limits(LIMITS), results.table(LIMITS), NEEDED_MPS, f"trot straight on, {PUSH_S} s, ekf"),
+        *limit_claims(
+            known_limits(results, LIMITS), results.table(LIMITS), NEEDED_MPS, f"trot straight on, {PUSH_S} s, ekf"
+        ),
     ]
 
 

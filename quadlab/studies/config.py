@@ -6,7 +6,7 @@ import yaml
 from pydantic import Field, ValidationError, model_validator
 
 from quadlab.configuration import Positive, StrictModel
-from quadlab.errors import ConfigurationError
+from quadlab.errors import ConfigurationError, one_line
 from quadlab.paths import CONF_DIR
 from quadlab.trials.problems import suggestion, validation_problems
 
@@ -117,11 +117,22 @@ def load_study(name: str) -> StudyConfig:
     if not path.is_file():
         raise ConfigurationError(f"unknown study '{name}'; {suggestion(name, set(study_names()))}")
     try:
-        return StudyConfig.model_validate(yaml.safe_load(path.read_text(encoding="utf-8")))
+        content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except UnicodeDecodeError as error:
+        raise ConfigurationError(f"study/{name}.yaml: not UTF-8 ({error})") from error
+    except yaml.MarkedYAMLError as error:
+        line = f", line {error.problem_mark.line + 1}" if error.problem_mark else ""
+        raise ConfigurationError(f"study/{name}.yaml{line}: not YAML ({error.problem})") from error
+    except yaml.YAMLError as error:
+        raise ConfigurationError(f"study/{name}.yaml: not YAML ({one_line(str(error))})") from error
+    if not isinstance(content, dict):
+        raise ConfigurationError(f"study/{name}.yaml: {_kind(content)}; expected keys such as title and blocks")
+    try:
+        return StudyConfig.model_validate(content)
     except ValidationError as error:
         lines = validation_problems(StudyConfig, error)
         raise ConfigurationError("\n".join(f"study/{name}.yaml: {line}" for line in lines)) from error
-    except UnicodeDecodeError as error:
-        raise ConfigurationError(f"study/{name}.yaml: not UTF-8 ({error})") from error
-    except yaml.YAMLError as error:
-        raise ConfigurationError(f"study/{name}.yaml: not YAML ({error})") from error
+
+
+def _kind(content: object) -> str:
+    return "empty" if content is None else f"a {type(content).__name__}"

@@ -10,8 +10,9 @@ from quadlab.paths import checkout_dir
 from quadlab.planners.plan import MotionPlan
 from quadlab.studies.files import file_hash
 from quadlab.studies.rows import DIRECTORY, FAILURE, Row
-from quadlab.trials.compose import compose_trial
-from quadlab.trials.config import RunOptions
+from quadlab.trials.compose import compose_trial, split_document
+from quadlab.trials.composer import Composer
+from quadlab.trials.config import RunOptions, TrialConfig
 from quadlab.trials.job import run_job
 from quadlab.trials.manifest import MANIFEST_FILE, git_state
 from quadlab.trials.plan_job import run_plan_job
@@ -23,7 +24,11 @@ from quadlab.trials.result import TrialStatus
 Job: TypeAlias = Callable[[Sequence[str], Path], Row]
 """Takes overrides and the study's folder; leaves its files below it and returns a row with a ``status``."""
 
+Check: TypeAlias = Callable[[Sequence[str], Composer], object]
+"""Takes the overrides of a job and raises ConfigurationError if it cannot be run with them."""
+
 JOBS: dict[str, Job] = {}
+_CHECKS: dict[str, Check] = {}
 
 
 def job_named(name: str) -> Job:
@@ -37,11 +42,36 @@ def job_named(name: str) -> Job:
     return JOBS[name]
 
 
-def study_job(name: str) -> Callable[[Job], Job]:
-    """Function decorator: make a job selectable by ``job: <name>`` in the YAML of a study."""
+def check_named(name: str) -> Check:
+    """Return the check of a job.
+
+    Raises:
+        ConfigurationError: if there is none of that name.
+    """
+    job_named(name)
+    return _CHECKS[name]
+
+
+def composes(overrides: Sequence[str], composer: Composer) -> TrialConfig:
+    """Return the trial that the overrides describe: the check of most jobs.
+
+    Raises:
+        ConfigurationError: if they describe none.
+    """
+    return split_document(composer.compose(overrides))[0]
+
+
+def study_job(name: str, check: Check = composes) -> Callable[[Job], Job]:
+    """Function decorator: make a job selectable by ``job: <name>`` in the YAML of a study.
+
+    Args:
+        name: of the job.
+        check: of its overrides, before anything runs.
+    """
 
     def decorate(job: Job) -> Job:
         JOBS[name] = job
+        _CHECKS[name] = check
         return job
 
     return decorate

@@ -12,7 +12,7 @@ from quadlab.planners.kinematic_sqp.planner import KinematicSqpPlanner
 from quadlab.planners.kinematic_sqp.sqp import Minimum, minimise, objective_history
 from quadlab.planners.planner import PlanningStatus
 from quadlab.robots.model import load_robot
-from quadlab.studies.jobs import current_commit, study_job
+from quadlab.studies.jobs import composes, current_commit, study_job
 from quadlab.studies.rows import FAILURE, Row
 from quadlab.trials.compose import compose_trial
 from quadlab.trials.config import TrialConfig
@@ -22,7 +22,7 @@ REPETITIONS = 7
 """Of building and solving, for the medians of the wall times."""
 
 
-@study_job("kinematic_cycles")
+@study_job("kinematic_cycles", check=lambda overrides, composer: kinematic_config(composes(overrides, composer)))
 def kinematic_cycles_row(overrides: Sequence[str], _: Path) -> Row:
     """Minimise from the nominal stance and return costs by objective, totals by iteration and times as a row.
 

@@ -28,16 +28,36 @@ BIPED_STEPS, BIPED_GOAL = 4, np.array([0.6, 0.2, 0.3])  # x, y in [m], yaw in [r
 CASES = {case.name: case for case in TABLE_ONE}
 
 
-@study_job("table_one")
+def table_one_options(overrides: Sequence[str]) -> dict[str, str]:
+    """Return ``case`` and ``transcription``.
+
+    Raises:
+        ConfigurationError: if the overrides are anything else.
+    """
+    options = dict(override.partition("=")[::2] for override in overrides)
+    if set(options) != {"case", "transcription"}:
+        raise ConfigurationError(f"job table_one: expected case=... and transcription=..., got {list(overrides)}")
+    return options
+
+
+def check_table_one(overrides: Sequence[str], _: object) -> None:
+    """Do nothing if the overrides name a case.
+
+    Raises:
+        ConfigurationError: if they do not.
+    """
+    options = table_one_options(overrides)
+    case_problem(options["case"], options["transcription"])
+
+
+@study_job("table_one", check=check_table_one)
 def table_one_row(overrides: Sequence[str], folder: Path) -> Row:
     """Plan ``case=<column of Table I, or biped>`` in ``transcription=fast|paper``; return sizes and times as a row.
 
     Raises:
         ConfigurationError: if it is told anything else.
     """
-    options = dict(override.partition("=")[::2] for override in overrides)
-    if set(options) != {"case", "transcription"}:
-        raise ConfigurationError(f"job table_one: expected case=... and transcription=..., got {list(overrides)}")
+    options = table_one_options(overrides)
     problem, changes = case_problem(options["case"], options["transcription"])
     composed: Any = compose_trial(["planner=vertex_zmp"]).planner
     settings = composed.model_dump()

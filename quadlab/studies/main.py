@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from quadlab.errors import QuadlabError
+from quadlab.errors import QuadlabError, os_error_line
 from quadlab.studies.config import study_names
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.runner import run_studies
@@ -24,16 +24,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     progress = StudyProgress()
     try:
         errors = run_studies(options.study, options.results, options.jobs, progress)
+        for name in options.study:
+            report = options.results / name / "report.md"
+            progress.say(f"{report}:\n{report.read_text(encoding='utf-8')}")
     except QuadlabError as error:
         for line in str(error).splitlines():
             sys.stderr.write(f"quadlab: {line}\n")
         return EXIT_USAGE
+    except OSError as error:
+        sys.stderr.write(f"quadlab: {os_error_line(error)}\n")
+        return EXIT_FAILED
     except KeyboardInterrupt:
         sys.stderr.write("quadlab: interrupted; what is done stays, run the same command to go on\n")
         return EXIT_INTERRUPTED
-    for name in options.study:
-        report = options.results / name / "report.md"
-        progress.say(f"{report}:\n{report.read_text(encoding='utf-8')}")
     return EXIT_FAILED if errors else 0
 
 

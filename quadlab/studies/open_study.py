@@ -5,12 +5,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeAlias
 
+from quadlab.errors import ConfigurationError
 from quadlab.studies.boundary import BoundarySearch
 from quadlab.studies.condition import Condition, conditions
 from quadlab.studies.config import StudyConfig, load_study
+from quadlab.studies.consistency import study_problems
 from quadlab.studies.files import StudyFolder
 from quadlab.studies.progress import StudyProgress
-from quadlab.studies.rows import Row
+from quadlab.studies.rows import FAILURE, Row
 from quadlab.studies.work import Work, remembered
 from quadlab.trials.result import TrialStatus
 
@@ -39,8 +41,15 @@ class OpenCondition:
         """Take in the row of a job."""
         self.rows.append((job, row))
         if self.search is not None:
-            value = float(job.levels[self.search.config.label])
-            self.search.record(value, row["status"] == TrialStatus.COMPLETED)
+            self._record(self.search, float(job.levels[self.search.config.label]), row)
+
+    @staticmethod
+    def _record(search: BoundarySearch, value: float, row: Row) -> None:
+        """Take in what came of a value; an error of the program says nothing about the robot."""
+        if row["status"] == TrialStatus.ERROR:
+            search.give_up(f"error at {value:g}: {row.get(FAILURE)}")
+        else:
+            search.record(value, row["status"] == TrialStatus.COMPLETED)
 
 
 @dataclass
@@ -91,5 +100,9 @@ def open_study(name: str, results: Path) -> OpenStudy:
         ConfigurationError: if there is no such study, or something in it is wrong.
     """
     config = load_study(name)
-    opened = [OpenCondition(c, BoundarySearch(c.search) if c.search else None) for c in conditions(config)]
+    found = conditions(config)
+    problems = [f"study/{name}.yaml: {problem}" for problem in study_problems(config, found)]
+    if problems:
+        raise ConfigurationError("\n".join(problems))
+    opened = [OpenCondition(c, BoundarySearch(c.search) if c.search else None) for c in found]
     return OpenStudy(name, config, StudyFolder(results / name), opened)

@@ -30,7 +30,7 @@ def success_share(good: int, trials: int) -> str:
 
 
 def _success_lines(study: StudyConfig, table: pd.DataFrame) -> Iterator[str]:
-    names = list(study.report_by)
+    names = [name for name in study.report_by if name in table]
     shown = [column for column in study.report_columns if column in table]
     yield _line([*names, "completed (95 %)", *(f"{column} median / worst" for column in shown), "failures"])
     yield _rule(len(names), 1 + len(shown), 1)
@@ -42,14 +42,27 @@ def _success_lines(study: StudyConfig, table: pd.DataFrame) -> Iterator[str]:
 
 def _limit_lines(study: StudyConfig, limits: pd.DataFrame) -> Iterator[str]:
     names = [name for name in study.report_by if name in limits]
-    yield _line([*names, "largest survived", "searches", "minimum", "median", "maximum", "above the grid"])
-    yield _rule(len(names) + 1, 5, 0)
+    columns = ["minimum", "median", "maximum", "above the grid", "not monotone"]
+    unknown = limits["unknown"].notna() if "unknown" in limits else pd.Series(False, limits.index)
+    shown = ["unknown"] if unknown.any() else []
+    yield _line([*names, "largest survived", "searches", *shown, *columns])
+    yield _rule(len(names) + 1, 1 + len(shown) + len(columns), 0)
     for key, rows in _groups(limits, [*names, "key"]):
-        found = rows["limit"].astype(float)
-        least = "none" if found.isna().any() else f"{found.min():.4g}"
-        known = found.fillna(0.0)
-        numbers = [least, f"{known.median():.4g}", f"{known.max():.4g}"]
-        yield _line([*key, str(len(rows)), *numbers, str(int((found >= rows["highest"]).sum()))])
+        missing = [str(int(unknown[rows.index].sum())) for _ in shown]
+        yield _line([*key, str(len(rows)), *missing, *_limit_numbers(rows[~unknown[rows.index]])])
+
+
+def _limit_numbers(rows: pd.DataFrame) -> list[str]:
+    """Return minimum, median, maximum, how many survived all of the grid, and how many of those confirmed are odd."""
+    if not len(rows):
+        return ["-"] * 5
+    found = rows["limit"].astype(float)
+    least = "none" if found.isna().any() else f"{found.min():.4g}"
+    known = found.fillna(0.0)
+    above = int((found >= rows["highest"]).sum())
+    confirmed = rows["monotone"].dropna().astype(bool)
+    odd = f"{int((~confirmed).sum())} of {len(confirmed)}" if len(confirmed) else "-"
+    return [least, f"{known.median():.4g}", f"{known.max():.4g}", str(above), odd]
 
 
 def _groups(table: pd.DataFrame, names: Sequence[str]) -> Iterator[tuple[list[str], pd.DataFrame]]:

@@ -22,13 +22,19 @@ def run_studies(names: Sequence[str], results: Path, workers: int, progress: Stu
         progress: told about every job.
 
     Raises:
-        ConfigurationError: if a study does not exist, or something in it is wrong.
+        ConfigurationError: if a study does not exist, or something in it is wrong; nothing was run then.
+        OSError: if files cannot be written.
     """
     studies = [open_study(name, results) for name in names]
     queue = deque((study, *job) for study in studies for job in study.open_jobs(progress))
     if queue:
+        from quadlab.studies.check import check_jobs  # noqa: PLC0415
         from quadlab.studies.work_off import work_off  # noqa: PLC0415
 
+        progress.say(f"checking {len(queue)} jobs")
+        check_jobs(queue)
+        for study, _, _ in queue:
+            study.folder.path.mkdir(parents=True, exist_ok=True)
         work_off(queue, workers, progress)
     for study in studies:
         if study.changed or not study.folder.table.is_file():

@@ -35,17 +35,21 @@ def job_table(rows: Rows) -> pd.DataFrame:
 
 
 def limit_table(searches: Searches) -> pd.DataFrame:
-    """Return one row a search: its levels, the largest value survived, and how sure that is."""
+    """Return one row a search: its levels, the largest value survived, and how sure that is.
+
+    ``highest`` is the last value of the grid. ``unknown`` says why a limit was not found; without such, it is left out.
+    """
     return pd.DataFrame(
         [
             {
                 **condition.levels,
                 "key": search.config.label,
                 "limit": search.limit,
-                "highest": search.config.highest,
+                "highest": search.grid[-1],
                 "step": search.config.step,
                 "probes": len(search.outcomes),
                 "monotone": search.monotone,
+                **({"unknown": search.unknown} if search.unknown else {}),
             }
             for condition, search in searches
         ]

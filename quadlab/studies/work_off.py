@@ -4,7 +4,6 @@ from collections import deque
 from contextlib import closing
 from dataclasses import dataclass, field
 
-from quadlab.studies.jobs import job_named
 from quadlab.studies.open_study import PendingJob
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.rows import FAILURE, Row
@@ -35,13 +34,7 @@ class JobQueue:
 
 
 def work_off(waiting: deque[PendingJob], workers: int, progress: StudyProgress) -> None:
-    """Do all jobs, each followed by what its search asks for next.
-
-    Raises:
-        ConfigurationError: if a study asks for a job that does not exist.
-    """
-    for study, _, _ in waiting:
-        job_named(study.config.job)
+    """Do all jobs, which were checked, each followed by what its search asks for next."""
     first = {(study.name, condition.levels_of_parts): study.work(job) for study, condition, job in reversed(waiting)}
     preloads = (Job("warming up", warm_up_works, (list(first.values()),)), NO_PRELOAD)
     queue = JobQueue(waiting)

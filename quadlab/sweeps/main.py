@@ -9,11 +9,20 @@ from collections.abc import Generator, Sequence
 from contextlib import closing
 from typing import TYPE_CHECKING
 
-from quadlab.errors import ConfigurationError, QuadlabError
-from quadlab.trials.main import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, EXIT_USAGE, complain
-from quadlab.trials.main import main as run_by_hydra
+from quadlab.errors import ConfigurationError, QuadlabError, os_error_line
+from quadlab.trials.main import (
+    EXIT_FAILED,
+    EXIT_INTERRUPTED,
+    EXIT_OK,
+    EXIT_USAGE,
+    complain,
+    run_document,
+    run_jobs,
+)
 
 if TYPE_CHECKING:
+    from omegaconf import DictConfig
+
     from quadlab.sweeps.multirun import Sweep
     from quadlab.sweeps.progress import SweepProgress
     from quadlab.sweeps.trial_pool import SweepOutcome, SweepTrial
@@ -29,7 +38,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: overrides and Hydra's flags; those of the process by default.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
-    return run_sweep(given) if is_sweep(given) else run_by_hydra(given)
+    return run_sweep(given) if is_sweep(given) else run_jobs(given, run_alone)
+
+
+def run_alone(document: "DictConfig") -> int:
+    """Run one composed configuration and return its exit code; what it says of sweeps has to be right as well."""
+    from quadlab.sweeps.options import sweep_options  # noqa: PLC0415
+
+    try:
+        sweep_options(document)
+    except ConfigurationError as error:
+        complain(str(error))
+        return EXIT_USAGE
+    return run_document(document)
 
 
 def is_sweep(arguments: Sequence[str]) -> bool:
@@ -50,8 +71,11 @@ def run_sweep(arguments: Sequence[str]) -> int:
     except ConfigurationError as error:
         complain(str(error))
         return EXIT_USAGE
-    except (QuadlabError, OSError) as error:
+    except QuadlabError as error:
         complain(str(error))
+        return EXIT_FAILED
+    except OSError as error:
+        complain(os_error_line(error))
         return EXIT_FAILED
     except KeyboardInterrupt:
         complain("interrupted; the same command goes on where it stopped")
@@ -65,8 +89,8 @@ def _run(overrides: Sequence[str], progress: "SweepProgress") -> int:
 
     points = sweep_points(overrides)
     progress.notice(f"checking {len(points)} trials")
-    sweep = check_sweep(points)
-    trials = unique_trials(sweep.trials)
+    sweep = check_sweep(points, progress)
+    trials = unique_trials(sweep.trials, progress)
     if sweep.options.shard:
         trials = sweep.options.shard.of(trials)
     record_sweep(sweep.trials, sweep.run)

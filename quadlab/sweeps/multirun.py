@@ -1,6 +1,7 @@
 """A sweep on the command line: the trials that ``-m gait=walk,trot seed=0,1,2`` asks for."""
 
-from collections.abc import Sequence
+import time
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -12,10 +13,14 @@ from hydra.core.override_parser.types import Override
 from quadlab.errors import ConfigurationError
 from quadlab.paths import CONF_DIR
 from quadlab.sweeps.options import SweepOptions, sweep_options
+from quadlab.sweeps.progress import SilentSweep, SweepProgress
 from quadlab.sweeps.trial_pool import SweepTrial
-from quadlab.trials.compose import ROOT_NAME, compose_document, split_document
+from quadlab.trials.compose import ROOT_NAME, split_document
+from quadlab.trials.composer import Composer
 from quadlab.trials.config import RunOptions
 from quadlab.trials.override_problems import COMPOSITION_ERRORS, UNTYPED_COMPOSITION_ERRORS, composition_problem
+
+TOLD_EVERY_S = 2.0  # [s] between two lines of progress
 
 Choice = tuple[tuple[str, str], ...]
 """The values of one key: (key, override) pairs."""
@@ -73,8 +78,12 @@ def sweep_points(overrides: Sequence[str]) -> list[SweepPoint]:
     return [_point(combination, choices) for combination in product(*choices.values())]
 
 
-def check_sweep(points: Sequence[SweepPoint]) -> Sweep:
+def check_sweep(points: Sequence[SweepPoint], progress: SweepProgress | None = None) -> Sweep:
     """Return the sweep of all points, every trial validated: nothing runs if anything is wrong.
+
+    Args:
+        points: at least one.
+        progress: told now and then how many were checked; silent by default.
 
     Raises:
         ConfigurationError: with one line for each different mistake.
@@ -82,9 +91,10 @@ def check_sweep(points: Sequence[SweepPoint]) -> Sweep:
     trials: list[SweepTrial] = []
     options: list[tuple[RunOptions, SweepOptions]] = []
     problems: dict[str, None] = {}
-    for point in points:
+    composer = Composer()
+    for point in _told(points, progress or SilentSweep()):
         try:
-            document = compose_document(point.overrides)
+            document = composer.compose(point.overrides)
             config, run = split_document(document)
             options.append((run, sweep_options(document)))
             trials.append(SweepTrial(point.name, config))
@@ -97,13 +107,26 @@ def check_sweep(points: Sequence[SweepPoint]) -> Sweep:
     return Sweep(tuple(trials), *options[0])
 
 
+def _told(points: Sequence[SweepPoint], progress: SweepProgress) -> Iterator[SweepPoint]:
+    """Yield all points and say now and then how many were taken."""
+    told_s = time.monotonic()
+    for number, point in enumerate(points):
+        if time.monotonic() - told_s >= TOLD_EVERY_S:
+            progress.notice(f"{number} of {len(points)} trials checked")
+            told_s = time.monotonic()
+        yield point
+
+
 def _choice(override: Override) -> Choice:
     key = override.get_key_element()
     if not override.is_sweep_override():
         return ((key, override.input_line),)
     if not override.is_discrete_sweep():
         raise ConfigurationError(f"{override.input_line}: an interval has no list of values; write {key}=a,b,c")
-    return tuple((key, f"{key}={value}") for value in override.sweep_string_iterator())
+    choice = tuple((key, f"{key}={value}") for value in override.sweep_string_iterator())
+    if not choice:
+        raise ConfigurationError(f"{override.input_line}: no values")
+    return choice
 
 
 def _point(combination: Sequence[tuple[str, str]], choices: dict[str, Choice]) -> SweepPoint:

@@ -111,8 +111,7 @@ def _before(trial: SweepTrial, options: RunOptions) -> JobOutcome | None:
     try:
         return finished_before(trial.config, options)
     except LogError as error:
-        failure = f"{error}; remove it, or add force=true to run the trial again"
-        return JobOutcome(trial_directory(trial.config, options), None, failure=failure)
+        return JobOutcome(trial_directory(trial.config, options), None, failure=str(error))
 
 
 def _run(

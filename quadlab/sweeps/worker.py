@@ -10,7 +10,7 @@ from multiprocessing.connection import Connection
 from types import TracebackType
 from typing import BinaryIO, NoReturn
 
-from quadlab.errors import QuadlabError
+from quadlab.errors import QuadlabError, one_line
 from quadlab.sweeps.job import Job, JobStatus
 from quadlab.sweeps.limits import die_with, limit_memory
 
@@ -74,10 +74,10 @@ class _Attempt:
         if error is None:
             return False
         traceback.print_exception(error)
-        self._answer.send(Answer(JobStatus.RAISED, b"", _one_line(error)))
+        self._answer.send(Answer(JobStatus.RAISED, b"", _reason(error)))
         return True
 
 
-def _one_line(error: BaseException) -> str:
-    text = "; ".join(str(error).splitlines())
+def _reason(error: BaseException) -> str:
+    text = one_line(str(error))
     return text if isinstance(error, QuadlabError) else f"{type(error).__name__}: {text}"

@@ -9,7 +9,7 @@ from types import TracebackType
 import yaml
 from threadpoolctl import threadpool_limits
 
-from quadlab.errors import ConfigurationError, MissingDependencyError
+from quadlab.errors import ConfigurationError, LogError, MissingDependencyError, one_line
 from quadlab.trials.config import RunOptions, TrialConfig
 from quadlab.trials.files import write_json, write_text
 from quadlab.trials.identity import trial_id
@@ -63,9 +63,10 @@ class ErrorRecord:
     ) -> bool:
         if not isinstance(error, Exception) or isinstance(error, (ConfigurationError, MissingDependencyError)):
             return False
-        self.failure = f"{type(error).__name__}: {error} (traceback in {self._path})"
+        message = one_line(str(error))
+        self.failure = f"{type(error).__name__}: {message} (traceback in {self._path})"
         lines = traceback.format_exception(kind, error, trace)
-        content = {"type": type(error).__name__, "message": str(error), "traceback": lines, "argv": sys.argv}
+        content = {"type": type(error).__name__, "message": message, "traceback": lines, "argv": sys.argv}
         write_json(self._path, content)
         return True
 
@@ -84,7 +85,10 @@ def finished_before(config: TrialConfig, options: RunOptions) -> JobOutcome | No
     directory = trial_directory(config, options)
     if options.force or not (directory / RESULT_FILE).is_file():
         return None
-    return JobOutcome(directory, read_result(directory), skipped=True)
+    try:
+        return JobOutcome(directory, read_result(directory), skipped=True)
+    except LogError as error:  # nobody asked to replace it
+        raise LogError(f"{error}; remove it, or add force=true to run the trial again") from error
 
 
 def run_job(config: TrialConfig, options: RunOptions, progress: TrialProgress) -> JobOutcome:
@@ -93,6 +97,7 @@ def run_job(config: TrialConfig, options: RunOptions, progress: TrialProgress) -
     If another process runs the same trial into the same directory, this one waits and takes its result.
 
     Raises:
+        LogError: if the result is there and cannot be read.
         QuadlabError: if the configuration names something that does not exist.
         OSError: if files cannot be written.
     """

@@ -16,7 +16,7 @@ from hydra.core.hydra_config import HydraConfig
 from hydra.types import RunMode
 from omegaconf import DictConfig
 
-from quadlab.errors import QuadlabError
+from quadlab.errors import LogError, QuadlabError, os_error_line
 from quadlab.paths import CONF_DIR
 from quadlab.trials.override_problems import COMPOSITION_ERRORS, UNTYPED_COMPOSITION_ERRORS, composition_problem
 
@@ -84,6 +84,8 @@ def run_jobs(arguments: Sequence[str] | None, job: Callable[[DictConfig], int]) 
     except KeyboardInterrupt:
         complain("interrupted")
         return EXIT_INTERRUPTED
+    except BrokenPipeError:  # whoever read the output has gone
+        raise
     except COMPOSITION_ERRORS as error:
         complain(composition_problem(error))
         return EXIT_USAGE
@@ -115,11 +117,14 @@ def run_document(document: DictConfig) -> int:
 
     try:
         outcome = run_job(*split_document(document), terminal_progress())
+    except LogError as error:
+        complain(str(error))
+        return EXIT_FAILED
     except QuadlabError as error:
         complain(str(error))
         return EXIT_USAGE
-    except OSError as error:  # a full disk, a folder that nobody may write to
-        complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+    except OSError as error:
+        complain(os_error_line(error))
         return EXIT_FAILED
     if outcome.failure:
         complain(outcome.failure)
@@ -141,6 +146,9 @@ def plan_document(document: DictConfig, draw: DrawPlan) -> int:
     except QuadlabError as error:
         complain(str(error))
         return EXIT_USAGE
+    except OSError as error:
+        complain(os_error_line(error))
+        return EXIT_FAILED
     sys.stdout.write(plan_report(job))
     return EXIT_OK
 

@@ -1,5 +1,6 @@
 """Mistakes that Hydra finds while it composes the configuration, in one line each."""
 
+import re
 from collections.abc import Mapping
 
 import yaml
@@ -16,6 +17,8 @@ UNTYPED_COMPOSITION_ERRORS = (ValueError, TypeError, AssertionError, OSError)
 that is longer than a file's may be."""
 
 _LONGEST_PATH = 300
+_SEVERAL_VALUES = re.compile(r"Ambiguous value for argument '(.+)'$|Sweep parameters '(.+)' requires --multirun")
+"""What Hydra says first of ``gait=walk,trot`` and of ``seed=range(0,3)`` where a single trial is run."""
 
 
 def composition_problem(error: Exception) -> str:
@@ -37,6 +40,8 @@ def composition_problem(error: Exception) -> str:
             problem = f"{str(error.filename)[:_LONGEST_PATH]}: {error.strerror}"
         case _ if isinstance(error.__cause__, OmegaConfBaseException):
             problem = _unknown_key(error.__cause__) or f"{_first_line(error)}: {_first_line(error.__cause__)}"
+        case _ if several := _SEVERAL_VALUES.match(_first_line(error)):
+            problem = _several_values(several[1] or several[2])
         case _:
             problem = _first_line(error)
     return problem
@@ -47,7 +52,15 @@ def _unknown_option(error: MissingConfigException) -> str:
     group, _, option = str(error.missing_cfg_file).rpartition("/")
     if error.options is None:
         return f"{error.missing_cfg_file}: no such configuration file"
-    return f"{group}: unknown '{option}'; {suggestion(option, error.options)}"
+    hint = "; others are packages, e.g. pip install hydra-ray-launcher" if group == "hydra/launcher" else ""
+    return f"{group}: unknown '{option}'; {suggestion(option, error.options)}{hint}"
+
+
+def _several_values(override: str) -> str:
+    """Return the line for an override that only a sweep can have."""
+    key, _, values = override.partition("=")
+    listed = "" if "(" in values else f", or write {key}=[{values}] for a list"
+    return f"{override}: several values; add -m for a sweep{listed}"
 
 
 def _unknown_key(cause: OmegaConfBaseException) -> str | None:

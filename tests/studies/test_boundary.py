@@ -23,7 +23,7 @@ def test_limit_is_the_largest_grid_value_that_is_survived(largest: float, confir
     _run(search, largest)
     survived = [value for value in search.grid if value <= largest]
     assert search.limit == (survived[-1] if survived else None)
-    assert search.monotone
+    assert search.monotone is (True if confirm and len(survived) > 1 else None)
 
 
 def test_bisection_needs_few_probes() -> None:
@@ -37,7 +37,14 @@ def test_failure_below_the_limit_is_found_and_lowers_it() -> None:
     while (value := search.next_value()) is not None:
         search.record(value, value <= 150.0 and value != 120.0)
     assert search.limit == 110.0
-    assert not search.monotone
+    assert search.monotone is False
+
+
+def test_value_that_could_not_be_tried_ends_the_search_without_a_limit() -> None:
+    search = _search(confirm=1)
+    search.record(110.0, survived=True)
+    search.give_up("the process was killed")
+    assert (search.next_value(), search.limit, search.monotone) == (None, None, None)
 
 
 @pytest.mark.parametrize(("largest", "limit"), [(0.0, None), (1000.0, 200.0)])

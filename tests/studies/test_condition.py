@@ -1,12 +1,16 @@
 """A study is the product of its factors, block by block, and every file of conf/study is one that can be run."""
 
+from pathlib import Path
+
 import pytest
 from pydantic import ValidationError
 
 import quadlab.studies.worker  # noqa: F401 - knows the jobs of all studies
 from quadlab.errors import ConfigurationError
+from quadlab.studies import config as study_config
 from quadlab.studies.condition import Condition, conditions
 from quadlab.studies.config import SearchConfig, StudyConfig, load_study, study_names
+from quadlab.studies.consistency import study_problems
 from quadlab.studies.jobs import JOBS
 from quadlab.trials.compose import compose_trial
 
@@ -69,13 +73,54 @@ def test_every_level_of_every_study_is_a_valid_trial(name: str) -> None:
 @pytest.mark.parametrize("name", study_names())
 def test_what_is_kept_and_reported_exists(name: str) -> None:
     study = load_study(name)
-    found = conditions(study)
-    names = {level for condition in found for level in condition.levels}
-    for trace in study.traces:
-        probes = [c for c in found if c.matches({k: v for k, v in trace.where.items() if k in names})]
-        assert len(probes) == 1, f"{name}: trace '{trace.name}' picks {len(probes)} jobs, expected one"
-    for plan, where in study.plans.items():
-        assert sum(condition.matches(where) for condition in found) == 1, f"{name}: plan '{plan}'"
+    assert not list(study_problems(study, conditions(study)))
+
+
+@pytest.mark.parametrize(
+    ("changes", "line"),
+    [
+        (
+            {"report_by": ["sed"]},
+            "report_by: unknown factor 'sed'; did you mean 'seed'?; known: f, gait, seed, variant",
+        ),
+        ({"report_by": ["seed", "robot", "f"]}, None),
+        ({"plans": {"it": {"seed": 0}}}, "plan 'it': 2 jobs have seed: 0; expected one"),
+        ({"plans": {"it": {"seed": 2}}}, "plan 'it': no jobs have seed: 2; expected one"),
+        ({"plans": {"it": {"seed": 0, "variant": "not"}}}, None),
+        ({"plans": {"it": {"variannt": "not"}}}, "plan 'it': unknown factor 'variannt'; did you mean 'variant'?"),
+        (
+            {"traces": [{"name": "it", "where": {"seed": 7, "gait": "walk"}, "columns": [], "rate_hz": 1}]},
+            "trace 'it': no jobs have seed: 7, gait: walk; expected one",
+        ),
+        ({"traces": [{"name": "it", "where": {"gait": "walk", "f": 2}, "columns": [], "rate_hz": 1}]}, None),
+    ],
+)
+def test_names_and_picks_that_do_not_fit_the_factors_are_found(changes: dict[str, object], line: str | None) -> None:
+    study = StudyConfig.model_validate({**STUDY.model_dump(), **changes})
+    problems = list(study_problems(study, conditions(study)))
+    assert len(problems) == (line is not None)
+    assert line is None or problems[0].startswith(line)
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("title: [a\nblocks: 1\n", "study/x.yaml, line 2: not YAML (expected ',' or ']', but got ':')"),
+        ("title: \x01\n", "study/x.yaml: not YAML (unacceptable character"),
+        ("", "study/x.yaml: empty; expected keys such as title and blocks"),
+        ("- a\n", "study/x.yaml: a list; expected keys such as title and blocks"),
+    ],
+)
+def test_file_that_is_no_study_is_one_line(
+    text: str, line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "study").mkdir()
+    (tmp_path / "study" / "x.yaml").write_text(text)
+    monkeypatch.setattr(study_config, "CONF_DIR", tmp_path)
+    with pytest.raises(ConfigurationError) as refusal:
+        load_study("x")
+    assert str(refusal.value).startswith(line)
+    assert len(str(refusal.value).splitlines()) == 1
 
 
 def _covering(found: list[Condition]) -> list[Condition]:

@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from quadlab.analysis.study_results import StudyResults
-from quadlab.errors import LogError
+from quadlab.errors import ConfigurationError, LogError
 from quadlab.studies import config as study_config
 from quadlab.studies import files
 from quadlab.studies.progress import StudyProgress
@@ -66,17 +66,54 @@ def test_what_figures_need_is_kept(study_folder: Path, tmp_path: Path) -> None:
         results.limits("standing")
 
 
-def test_wrong_configuration_is_a_row_and_counted(study_folder: Path, tmp_path: Path) -> None:
-    wrong = {
-        **STUDY,
-        "traces": [],
-        "blocks": [{"factors": {"gait": ["stand", "gallop"]}, "overrides": ["command=in_place", "duration_s=1.2"]}],
-    }
-    (study_folder / "standing.yaml").write_text(yaml.safe_dump(wrong))
+STANDING = ["command=in_place", "duration_s=1.2"]
+SEARCH = {"key": "seed", "lowest": 0, "step": 1, "highest": 3, "confirm": 0}
+
+
+@pytest.mark.parametrize(
+    ("changes", "lines"),
+    [
+        (
+            {"traces": [], "blocks": [{"factors": {"gait": ["stand", "gallop"]}, "overrides": STANDING}]},
+            ["gait: unknown 'gallop'; known: "],
+        ),
+        (
+            {"blocks": [{"factors": {"seed": [0, 1]}, "overrides": ["controlller=weighted"]}]},
+            ["controlller: unknown key; did you mean 'controller'?; known: "],
+        ),
+        (
+            {"blocks": [{"factors": {"seed": [0]}, "search": {**SEARCH, "key": "sceed"}}]},
+            ["sceed: unknown key; did you mean 'seed'?; known: "],
+        ),
+        ({"job": "trail"}, ["job: unknown 'trail'; did you mean 'trial'?; known: "]),
+        ({"job": "kinematic_cycles"}, ["planner: 'vertex_zmp' has no objectives; expected kinematic_sqp"]),
+        ({"job": "table_one"}, ["job table_one: expected case=... and transcription=..., got "] * 2),
+    ],
+)
+def test_wrong_configuration_is_refused_before_anything_runs(
+    changes: dict[str, object], lines: list[str], study_folder: Path, tmp_path: Path
+) -> None:
+    (study_folder / "standing.yaml").write_text(yaml.safe_dump({**STUDY, **changes}))
+    with pytest.raises(ConfigurationError) as refusal:
+        run_studies(["standing"], tmp_path / "results", 1, StudyProgress(StringIO()))
+    found = str(refusal.value).splitlines()
+    assert len(found) == len(lines)
+    assert all(shown.startswith(f"study/standing.yaml: {line}") for shown, line in zip(found, lines, strict=True))
+    assert not (tmp_path / "results").exists()
+
+
+def test_error_of_the_program_is_a_row_and_counted_and_no_limit(study_folder: Path, tmp_path: Path) -> None:
+    """Here the folder of the trials cannot be made."""
+    block = {"overrides": ["gait=stand", *STANDING], "factors": {"robot": ["anymal_b"]}, "search": SEARCH}
+    (study_folder / "standing.yaml").write_text(yaml.safe_dump({**STUDY, "blocks": [block], "traces": []}))
+    folder = tmp_path / "results" / "standing"
+    folder.mkdir(parents=True)
+    (folder / "trials").write_text("")
     assert run_studies(["standing"], tmp_path / "results", 1, StudyProgress(StringIO())) == 1
-    table = pd.read_csv(tmp_path / "results" / "standing" / "table.csv")
-    assert list(table["status"]) == ["completed", "error"]
-    assert "gallop" in table["status_reason"][1]
+    assert list(pd.read_csv(folder / "table.csv")["status"]) == ["error"]
+    limits = pd.read_csv(folder / "limits.csv")
+    assert limits["limit"].isna().all()
+    assert limits["unknown"][0].startswith("error at 1: NotADirectoryError: ")
 
 
 def test_plan_that_fails_is_a_row_without_curves(study_folder: Path, tmp_path: Path) -> None:

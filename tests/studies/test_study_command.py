@@ -15,6 +15,13 @@ def test_unknown_study_names_the_closest_one(tmp_path: Path, capsys: pytest.Capt
     assert not list(tmp_path.iterdir())
 
 
+def test_folder_of_results_that_is_a_file_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    taken = tmp_path / "taken"
+    taken.write_text("")
+    assert main(["gehring2017_trot_plan", "--results", str(taken)]) == 1
+    assert capsys.readouterr().err == f"quadlab: {taken}/gehring2017_trot_plan: Not a directory\n"
+
+
 @pytest.mark.parametrize("jobs", ["0", "-1", "two"])
 def test_number_of_processes_is_above_zero(jobs: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:

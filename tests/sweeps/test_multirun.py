@@ -4,6 +4,7 @@ import signal
 import subprocess
 import sys
 import time
+from io import StringIO
 from pathlib import Path
 
 import pytest
@@ -11,9 +12,11 @@ from sweep_cases import STANDING, standing
 
 from quadlab.errors import ConfigurationError
 from quadlab.paths import CONF_DIR
+from quadlab.sweeps import multirun
 from quadlab.sweeps.main import is_sweep, main
 from quadlab.sweeps.multirun import check_sweep, sweep_points
 from quadlab.sweeps.options import Shard
+from quadlab.sweeps.terminal import PlainSweep
 from quadlab.trials.identity import trial_id
 
 ENTRY = "import sys; from quadlab.sweeps.main import main; sys.exit(main())"
@@ -44,6 +47,8 @@ def test_glob_finds_files() -> None:
     ("overrides", "lines"),
     [
         (["seed=interval(0,1)"], ["seed=interval(0,1): an interval has no list of values; write seed=a,b,c"]),
+        (["seed=range(0,0)"], ["seed=range(0,0): no values"]),
+        (["seed=glob(*)"], ["seed=glob(*): no values"]),
         (["seed=0,1", "duration_s=[1"], ["duration_s=[1: cannot be read as key=value"]),
         (
             ["gait=trto,walk", "seed=0,-1"],
@@ -69,6 +74,60 @@ def test_mistakes_are_lines_and_nothing_runs(
     assert len(found) == len(lines)
     assert all(shown.startswith(f"quadlab: {line}") for shown, line in zip(found, lines, strict=True))
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("overrides", "lines"),
+    [
+        (
+            ["gait=walk,trot"],
+            ["gait=walk,trot: several values; add -m for a sweep, or write gait=[walk,trot] for a list"],
+        ),
+        (["seed=range(0,3)"], ["seed=range(0,3): several values; add -m for a sweep"]),
+        (
+            ["shard=hello", "pool.workers=-3"],
+            [
+                "pool.workers: input should be greater than or equal to 1 (got -3)",
+                "shard: expected i/n such as 0/4 (got 'hello')",
+            ],
+        ),
+    ],
+)
+def test_single_trial_is_told_what_belongs_to_sweeps(
+    overrides: list[str],
+    lines: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(overrides) == 2
+    assert capsys.readouterr().err.splitlines() == [f"quadlab: {line}" for line in lines]
+    assert not list(tmp_path.iterdir())
+
+
+def test_launcher_of_another_package_says_how_to_get_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["-m", "seed=0,1", "hydra/launcher=abacus"]) == 2
+    assert capsys.readouterr().err.endswith("; others are packages, e.g. pip install hydra-ray-launcher\n")
+
+
+def test_checking_many_trials_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(multirun, "TOLD_EVERY_S", 0.0)
+    output = StringIO()
+    check_sweep(sweep_points(["seed=0,1,2"]), PlainSweep(output))
+    assert output.getvalue().splitlines() == [f"sweep: {number} of 3 trials checked" for number in range(3)]
+
+
+def test_results_folder_that_is_a_file_is_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "taken").write_text("")
+    assert main(["-m", *STANDING, "seed=0,1", "results_dir=taken"]) == 1
+    assert capsys.readouterr().err.splitlines()[-1].startswith("quadlab: taken/trials/sweeps: Not a directory")
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 7])

@@ -9,7 +9,7 @@ import yaml
 
 from quadlab.errors import QuadlabError, RobotDescriptionError
 from quadlab.trials import job as job_module
-from quadlab.trials.compose import compose_document, split_document
+from quadlab.trials.compose import compose_document, compose_trial, split_document
 from quadlab.trials.config import TrialConfig
 from quadlab.trials.identity import trial_id
 from quadlab.trials.job import JobOutcome, run_job
@@ -91,6 +91,30 @@ def test_exception_becomes_error_json_and_the_next_run_tries_again(
     monkeypatch.setattr(job_module, "run_trial", lambda config, *_: _result_of(config))
     assert _run(tmp_path, "seed=13").failure is None
     assert not (outcome.directory / "error.json").exists()
+
+
+def test_reason_of_several_lines_becomes_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stop(*_: object) -> TrialResult:
+        raise RuntimeError("mj_stackAlloc: out of memory, stack overflow\n  max = 1, available = 0\n")
+
+    monkeypatch.setattr(job_module, "run_trial", stop)
+    outcome = _run(tmp_path)
+    message = "mj_stackAlloc: out of memory, stack overflow; max = 1, available = 0"
+    assert str(outcome.failure).startswith(f"RuntimeError: {message} (traceback in ")
+    assert json.loads((outcome.directory / "error.json").read_text())["message"] == message
+
+
+def test_result_that_cannot_be_read_is_exit_code_1_and_says_how_to_replace_it(
+    tmp_path: Path, ran: list[int], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    directory = tmp_path / "results" / "trials" / trial_id(compose_trial())
+    directory.mkdir(parents=True)
+    (directory / "result.json").write_text("{")
+    assert main([]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.endswith("; remove it, or add force=true to run the trial again")
+    assert main(["force=true"]) == 0
 
 
 def test_error_within_a_trial_is_no_mistake_in_its_configuration(

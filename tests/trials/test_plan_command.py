@@ -89,3 +89,15 @@ def test_mistake_is_one_line_and_exit_code_2(
     assert error.startswith(f"quadlab: {expected}")
     assert error.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_results_folder_that_is_a_file_is_one_line_and_exit_code_1(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    taken = tmp_path / "taken"
+    taken.write_text("")
+    assert main(["plan", *WALK, f"results_dir={taken}"]) == 1
+    error = capsys.readouterr().err
+    assert error.startswith(f"quadlab: {taken}/")
+    assert error.endswith(": Not a directory\n")
+    assert error.count("\n") == 1

@@ -1,0 +1,22 @@
+"""Limits of a study, of which every one was found."""
+
+import pandas as pd
+
+from quadlab.analysis.study_results import StudyResults
+from quadlab.errors import LogError
+
+
+def known_limits(results: StudyResults, study: str) -> pd.DataFrame:
+    """Return one row a search: its levels and the largest value survived, empty where even the smallest was not.
+
+    Raises:
+        LogError: if the study has not been run, searches for nothing, or errors left some limits unknown.
+    """
+    limits = results.limits(study)
+    unknown = int(limits["unknown"].notna().sum()) if "unknown" in limits else 0
+    if unknown:
+        raise LogError(
+            f"{study}/limits.csv: {unknown} of {len(limits)} limits are unknown since trials ended in an error; "
+            f"python experiments/run_study.py {study} runs these again"
+        )
+    return limits
