@@ -20,11 +20,11 @@ UNIT_TOLERANCE = 1e-6
 
 
 class PoseMotion(NamedTuple):
-    """A moving pose at one time; all components are in the axes of the plan frame.
+    """A moving pose at one time; all components are in the axes of one frame: the plan's for a curve of a plan.
 
     Attributes:
         position, velocity, acceleration: (3,) in [m], [m/s], [m/s^2].
-        rotation: base to plan frame, (3, 3).
+        rotation: base to that frame, (3, 3).
         angular_velocity, angular_acceleration: (3,) in [rad/s], [rad/s^2].
     """
 

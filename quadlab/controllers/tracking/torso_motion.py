@@ -40,27 +40,10 @@ class NominalStance(NamedTuple):
     base_height: float
 
 
-class TorsoMotion(NamedTuple):
-    """Desired motion of the base origin and of its axes, in world components.
-
-    Attributes:
-        position, velocity, acceleration: (3,) in [m], [m/s], [m/s^2].
-        rotation: base to world, (3, 3).
-        angular_velocity, angular_acceleration: (3,) in [rad/s], [rad/s^2].
-    """
-
-    position: Array
-    velocity: Array
-    acceleration: Array
-    rotation: Array
-    angular_velocity: Array
-    angular_acceleration: Array
-
-
 def torso_under_com(
     com: tuple[Array, Array, Array], turning: tuple[float, float], ground: Ground, stance: NominalStance
-) -> TorsoMotion:
-    """Return the motion of a base that stays where it is relative to the CoM, level and at standing height.
+) -> PoseMotion:
+    """Return the motion, in the world, of a base that stays where it is relative to the CoM, level and at standing height.
 
     A deviation from Gehring 2017, whose planner moves the base under the CoM; pendulum planners know none.
 
@@ -75,7 +58,7 @@ def torso_under_com(
     cosine, sine = math.cos(heading), math.sin(heading)
     forward, left = stance.com_in_base
     place = (x - (cosine * forward - sine * left), y - (sine * forward + cosine * left))
-    return TorsoMotion(
+    return PoseMotion(
         position=np.array([*place, ground.height + stance.base_height]),
         velocity=np.array([vx, vy, 0.0]),
         acceleration=np.array([ax, ay, 0.0]),
@@ -85,9 +68,7 @@ def torso_under_com(
     )
 
 
-def planned_torso(
-    planned: PoseMotion, alignment: PlanarPose, clock: tuple[float, float], ground: Ground
-) -> TorsoMotion:
+def planned_torso(planned: PoseMotion, alignment: PlanarPose, clock: tuple[float, float], ground: Ground) -> PoseMotion:
     """Return the planned motion of the base where the plan lies in the world.
 
     Heights are those over the ground under the base; roll and pitch of the plan come on top of those of the ground.
@@ -102,7 +83,7 @@ def planned_torso(
     turn, heading = rotation_z(alignment.yaw), yaw_of(planned.rotation)
     leaning = rotation_z(-heading) @ planned.rotation
     x, y, z = planned.position.tolist()
-    return TorsoMotion(
+    return PoseMotion(
         position=np.array([*alignment.moved(x, y), ground.height + z]),
         velocity=rate * turn @ planned.velocity,
         acceleration=turn @ (rate**2 * planned.acceleration + rate_change * planned.velocity),

@@ -26,11 +26,11 @@ from quadlab.controllers.tracking.torso import ground_axes
 from quadlab.controllers.tracking.torso_motion import (
     Ground,
     NominalStance,
-    TorsoMotion,
     planned_torso,
     torso_under_com,
 )
 from quadlab.estimation.terrain_plane import TerrainPlane, blend, fit_plane
+from quadlab.geometry.pose_curve import PoseMotion
 from quadlab.geometry.rotations import Array, yaw_of
 from quadlab.planners.capture_point import capture_point
 from quadlab.planners.plan import MotionPlan, PlanSample
@@ -220,7 +220,7 @@ class MotionTracker:
         torso: PlanarPose,
         com: tuple[Array, Array, Array],
         kinematics: Kinematics,
-    ) -> TorsoMotion:
+    ) -> PoseMotion:
         """Return what the base shall do; ``com`` as in ``torso_under_com``."""
         config, clock = self.config.torso, (self._clock.rate, self._clock.rate_change)
         height = self._terrain.height_at(kinematics.base_position[:2])

@@ -8,12 +8,11 @@ from quadlab.controllers.tracking.torso import torso_rotation
 from quadlab.controllers.tracking.torso_motion import (
     Ground,
     NominalStance,
-    TorsoMotion,
     planned_torso,
     torso_under_com,
 )
 from quadlab.estimation.terrain_plane import TerrainPlane
-from quadlab.geometry.pose_curve import PoseCurve, pose_curve
+from quadlab.geometry.pose_curve import PoseCurve, PoseMotion, pose_curve
 from quadlab.geometry.rotations import Array, matrix_to_quat, rotation_log, rotation_zyx
 
 LEVEL = Ground(TerrainPlane((0.0, 0.0), 0.0, (0.0, 0.0)), 0.0, 0.5)
@@ -31,7 +30,7 @@ def swaying() -> PoseCurve:
     return pose_curve(times, positions, np.array(quats))
 
 
-def at(time_s: float, alignment: PlanarPose = ALIGNED, rate: float = 1.0, ground: Ground = LEVEL) -> TorsoMotion:
+def at(time_s: float, alignment: PlanarPose = ALIGNED, rate: float = 1.0, ground: Ground = LEVEL) -> PoseMotion:
     return planned_torso(swaying().motion(time_s), alignment, (rate, 0.0), ground)
 
 
