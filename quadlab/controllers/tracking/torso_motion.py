@@ -43,7 +43,7 @@ class NominalStance(NamedTuple):
 def torso_under_com(
     com: tuple[Array, Array, Array], turning: tuple[float, float], ground: Ground, stance: NominalStance
 ) -> PoseMotion:
-    """Return the motion, in the world, of a base that stays where it is relative to the CoM, level and at standing height.
+    """Return the motion, in the world, of a base that stays where it is relative to the CoM, at standing height.
 
     A deviation from Gehring 2017, whose planner moves the base under the CoM; pendulum planners know none.
 
