@@ -25,6 +25,8 @@ from quadlab.plotting.figure_files import save_figure
 from quadlab.trials.files import write_text
 
 FLOAT_FORMAT = "%.6g"
+KEPT = ("traces", "plans")
+"""Folders of a study that figures are drawn from, beside its tables."""
 PAPERS = {
     "gehring2017": "Gehring 2017",
     "winkler2017": "Winkler 2017",
@@ -73,6 +75,18 @@ def artefact_scripts(names: Sequence[str]) -> list[ArtefactScript]:
     if not found:
         raise ConfigurationError(f"artefact: unknown '{' '.join(names)}'; expected a part of <paper>.<script>")
     return sorted(found, key=lambda script: list(PAPERS).index(script.paper))
+
+
+def is_drawn(script: ArtefactScript, results: StudyResults, folder: Path) -> bool:
+    """Return whether all that ``draw_artefact`` writes is newer than its results and than the scripts."""
+    drawn = [folder / script.paper / f"{script.name}{suffix}" for suffix in (".png", ".pdf", ".csv")]
+    studies = [results.folder / study for study in script.artefact.studies]
+    if not all(path.is_file() for path in drawn) or not all(study.is_dir() for study in studies):
+        return False
+    sources = [path for study in studies for path in study.glob("*.*")]
+    sources += [path for study in studies for part in KEPT for path in (study / part).glob("*")]
+    sources += folder.rglob("*.py")
+    return min(path.stat().st_mtime for path in drawn) > max(path.stat().st_mtime for path in sources)
 
 
 def draw_artefact(script: ArtefactScript, results: StudyResults, folder: Path) -> list[Path]:

@@ -8,7 +8,7 @@ from typing import Literal
 
 from pydantic import Field, ValidationError
 
-from paper_figures.gallery import ArtefactScript, artefact_scripts, draw_artefact
+from paper_figures.gallery import ArtefactScript, artefact_scripts, draw_artefact, is_drawn
 from paper_figures.readme_table import write_readme
 from paper_figures.report_page import write_page
 from paper_figures.summary import Judged, judge, write_summary
@@ -119,9 +119,11 @@ def write_overviews(judged: Sequence[Judged], results: StudyResults) -> list[Pat
 
 
 def draw_all(scripts: Sequence[ArtefactScript], results: StudyResults, progress: StudyProgress) -> int:
-    """Draw what can be drawn and return how many artefacts lack their results."""
+    """Draw what can be drawn and is not up to date, and return how many artefacts lack their results."""
     missing = 0
     for script in scripts:
+        if is_drawn(script, results, FOLDER):
+            continue
         try:
             for path in draw_artefact(script, results, FOLDER):
                 progress.say(str(path.relative_to(FOLDER.parent)))

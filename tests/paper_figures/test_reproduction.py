@@ -1,8 +1,13 @@
 """What can be asked of ``experiments/reproduce.py``, and how it answers mistakes."""
 
+import os
+from pathlib import Path
+
 import pytest
 
+from paper_figures.gallery import ArtefactScript, artefact_scripts, is_drawn
 from paper_figures.reproduction import PAPERS, ReproduceOptions, chosen_scripts, main, read_options
+from quadlab.analysis.study_results import StudyResults
 from quadlab.errors import ConfigurationError
 
 
@@ -43,3 +48,36 @@ def test_artefact_is_chosen_by_a_part_of_its_name() -> None:
     assert names == ["figure6_trot_plank"]
     with pytest.raises(ConfigurationError, match="artefact: unknown 'figure66'"):
         chosen_scripts(ReproduceOptions(artefact="figure66"))
+
+
+@pytest.fixture
+def drawn(tmp_path: Path) -> tuple[ArtefactScript, StudyResults, Path]:
+    """An artefact whose results are older than its script, and that than its figure."""
+    script = artefact_scripts(["figure8_transition"])[0]
+    results, folder = StudyResults(tmp_path / "results"), tmp_path / "figures"
+    table = results.folder / script.artefact.studies[0] / "table.csv"
+    outputs = [folder / script.paper / f"{script.name}{suffix}" for suffix in (".png", ".pdf", ".csv")]
+    for age, path in [(30.0, table), (20.0, folder / script.paper / "script.py"), *((10.0, path) for path in outputs)]:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+        os.utime(path, (1e9 - age, 1e9 - age))
+    return script, results, folder
+
+
+def test_figure_is_drawn_again_only_if_results_or_scripts_are_newer(
+    drawn: tuple[ArtefactScript, StudyResults, Path],
+) -> None:
+    script, results, folder = drawn
+    assert is_drawn(*drawn)
+    table = results.folder / script.artefact.studies[0] / "table.csv"
+    os.utime(table, (1e9, 1e9))
+    assert not is_drawn(*drawn)
+    os.utime(table, (1e9 - 30.0, 1e9 - 30.0))
+    os.utime(folder / script.paper / "script.py", (1e9, 1e9))
+    assert not is_drawn(*drawn)
+
+
+def test_figure_that_is_missing_is_drawn(drawn: tuple[ArtefactScript, StudyResults, Path]) -> None:
+    script, _, folder = drawn
+    (folder / script.paper / f"{script.name}.pdf").unlink()
+    assert not is_drawn(*drawn)
