@@ -24,7 +24,7 @@ _REASONS = (
 )
 """Why there is no answer, by the status of ``StackedResult``."""
 _FORCE_LIMITS = ("torque_limits", "friction_cone")
-"""Tasks whose rows can always be kept, in this order."""
+"""Tasks that limit torques and contact forces; friction gives way to torque limits above it, and to nothing else."""
 
 
 def _is_force_limit(task: Any) -> bool:

@@ -98,6 +98,7 @@ class ProjectedInverseDynamicsResolver:
         torques, forces = self._torques_and_forces(contact, inverse_dynamics)
         residual = inverse_dynamics - contact.T @ forces
         residual[JOINTS] -= torques
+        finite = bool(np.isfinite(torques).all())
         contact_forces = np.zeros((LEG_COUNT, 3))
         contact_forces[legs] = forces.reshape(-1, 3)
         return Resolution(
@@ -106,7 +107,7 @@ class ProjectedInverseDynamicsResolver:
             contact_forces=contact_forces,
             residuals={"base": float(np.linalg.norm(residual[BASE])), "feet": float(np.linalg.norm(residual[JOINTS]))},
             iterations=0,
-            solved=(finite := bool(np.isfinite(torques).all())),
+            solved=finite,
             reason="" if finite else "torques that are not finite",
         )
 

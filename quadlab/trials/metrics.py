@@ -88,7 +88,7 @@ class TrialMetrics:
         self._rows.append(np.concatenate(parts))
         self._modes.append(telemetry.leg_modes)
         self._fallbacks = telemetry.fallbacks
-        for name in self.limit_names:
+        for name in self.limit_names:  # NaN in a tick without a solution, which counts as a fallback, changes nothing
             self._limit_residual = max(self._limit_residual, telemetry.level_residuals[name])
         self._hash.update(np.ascontiguousarray(physics_state).tobytes())
 
