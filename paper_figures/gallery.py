@@ -18,9 +18,11 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 import paper_figures
+from quadlab import plotting
 from quadlab.analysis.artefact import Artefact, Claim
 from quadlab.analysis.study_results import StudyResults
 from quadlab.errors import ConfigurationError
+from quadlab.paths import CONF_DIR
 from quadlab.plotting.figure_files import save_figure
 from quadlab.trials.files import write_text
 
@@ -78,14 +80,14 @@ def artefact_scripts(names: Sequence[str]) -> list[ArtefactScript]:
 
 
 def is_drawn(script: ArtefactScript, results: StudyResults, folder: Path) -> bool:
-    """Return whether all that ``draw_artefact`` writes is newer than its results and than the scripts."""
+    """Return whether all that ``draw_artefact`` writes is newer than its results, the scripts and the configuration."""
     drawn = [folder / script.paper / f"{script.name}{suffix}" for suffix in (".png", ".pdf", ".csv")]
     studies = [results.folder / study for study in script.artefact.studies]
     if not all(path.is_file() for path in drawn) or not all(study.is_dir() for study in studies):
         return False
     sources = [path for study in studies for path in study.glob("*.*")]
     sources += [path for study in studies for part in KEPT for path in (study / part).glob("*")]
-    sources += folder.rglob("*.py")
+    sources += [*folder.rglob("*.py"), *CONF_DIR.rglob("*.yaml"), *Path(plotting.__file__).parent.rglob("*.py")]
     return min(path.stat().st_mtime for path in drawn) > max(path.stat().st_mtime for path in sources)
 
 

@@ -1,6 +1,7 @@
 """What can be asked of ``experiments/reproduce.py``, and how it answers mistakes."""
 
 import os
+import time
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,8 @@ from paper_figures.gallery import ArtefactScript, artefact_scripts, is_drawn
 from paper_figures.reproduction import PAPERS, ReproduceOptions, chosen_scripts, main, read_options
 from quadlab.analysis.study_results import StudyResults
 from quadlab.errors import ConfigurationError
+
+LATER = time.time() + 1000.0  # [s] no file of the checkout is as new
 
 
 def test_options_are_pairs_of_key_and_value() -> None:
@@ -60,7 +63,7 @@ def drawn(tmp_path: Path) -> tuple[ArtefactScript, StudyResults, Path]:
     for age, path in [(30.0, table), (20.0, folder / script.paper / "script.py"), *((10.0, path) for path in outputs)]:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.touch()
-        os.utime(path, (1e9 - age, 1e9 - age))
+        os.utime(path, (LATER - age, LATER - age))
     return script, results, folder
 
 
@@ -70,10 +73,10 @@ def test_figure_is_drawn_again_only_if_results_or_scripts_are_newer(
     script, results, folder = drawn
     assert is_drawn(*drawn)
     table = results.folder / script.artefact.studies[0] / "table.csv"
-    os.utime(table, (1e9, 1e9))
+    os.utime(table, (LATER, LATER))
     assert not is_drawn(*drawn)
-    os.utime(table, (1e9 - 30.0, 1e9 - 30.0))
-    os.utime(folder / script.paper / "script.py", (1e9, 1e9))
+    os.utime(table, (LATER - 30.0, LATER - 30.0))
+    os.utime(folder / script.paper / "script.py", (LATER, LATER))
     assert not is_drawn(*drawn)
 
 
