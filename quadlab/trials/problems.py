@@ -10,6 +10,8 @@ from quadlab.trials.parts import PartOf
 
 _SHOWN = 25
 """That many names are still read; the robots, gaits and studies of quadlab are fewer."""
+_LONGEST = 200
+"""What was given is not repeated if it is longer, such as all levels of a controller."""
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
@@ -44,7 +46,8 @@ def _problem(model: type[BaseModel], details: Mapping[str, Any]) -> str:
         case "union_tag_not_found":
             return f"{path}.kind: missing"
     message = details["msg"].removeprefix("Value error, ")
-    shown = "" if isinstance(given, dict | BaseModel) else f" (got {given!r})"
+    text = "" if isinstance(given, dict | BaseModel) else repr(given)
+    shown = f" (got {text})" if text and len(text) <= _LONGEST else ""
     return f"{path}: {message[0].lower()}{message[1:]}{shown}"
 
 

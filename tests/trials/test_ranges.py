@@ -37,3 +37,4 @@ def test_mistake_is_refused_in_one_line(overrides: list[str], message: str) -> N
         compose_trial(overrides)
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 300, "not all levels once more"
