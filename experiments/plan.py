@@ -2,7 +2,7 @@
 
 import sys
 
-from quadlab.plotting.plan_files import main
+from quadlab.cli import main
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(["plan", *sys.argv[1:]]))

@@ -13,15 +13,16 @@ from paper_figures.readme_table import write_readme
 from paper_figures.report_page import write_page
 from paper_figures.summary import Judged, judge, write_summary
 from quadlab.analysis.study_results import StudyResults
+from quadlab.command_line import EXIT_FAILED, EXIT_OK, exit_code
 from quadlab.configuration import StrictModel
 from quadlab.errors import ConfigurationError, QuadlabError
+from quadlab.studies.main import INTERRUPTED
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.runner import run_studies
 from quadlab.trials.problems import suggestion, validation_problems
 
 PAPERS = ("gehring2017", "winkler2017", "bellicoso2016")
 FOLDER = Path(__file__).parent
-EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 130
 USAGE = """usage: python experiments/reproduce.py [paper=all] [artefact=...] [jobs=...]
 
   paper     gehring2017, winkler2017, bellicoso2016, all of them, or comparison
@@ -49,14 +50,7 @@ def main(arguments: Sequence[str]) -> int:
     if {"-h", "--help"} & set(arguments):
         sys.stdout.write(USAGE)
         return 0
-    try:
-        return reproduce(read_options(arguments), StudyProgress())
-    except QuadlabError as error:
-        sys.stderr.writelines(f"quadlab: {line}\n" for line in str(error).splitlines())
-        return EXIT_USAGE
-    except KeyboardInterrupt:
-        sys.stderr.write("quadlab: interrupted; what is done stays, run the same command to go on\n")
-        return EXIT_INTERRUPTED
+    return exit_code(lambda: reproduce(read_options(arguments), StudyProgress()), INTERRUPTED)
 
 
 def read_options(arguments: Sequence[str]) -> ReproduceOptions:
@@ -93,7 +87,7 @@ def reproduce(options: ReproduceOptions, progress: StudyProgress) -> int:
         progress.say(f"{entry.script.artefact.source:28s} {entry.verdict:15s} {entry.script.artefact.title}")
         for claim in entry.claims:
             progress.say(f"    {claim.verdict.value:15s} {claim.text}: {claim.ours} (paper: {claim.paper})")
-    return EXIT_FAILED if errors or missing else 0
+    return EXIT_FAILED if errors or missing else EXIT_OK
 
 
 def chosen_scripts(options: ReproduceOptions) -> list[ArtefactScript]:

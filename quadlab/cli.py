@@ -1,16 +1,13 @@
 """The console command ``quadlab``: run trials or plan alone, look at what they left, rescue a log."""
 
 import argparse
-import os
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 
 from quadlab import __version__, sweep_commands
-from quadlab.errors import QuadlabError, os_error_line
-
-EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 130
+from quadlab.command_line import exit_code
 
 _EPILOG = """
 quadlab run --help lists what can be overridden. Without a command, quadlab runs a trial:
@@ -25,22 +22,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: without the program's name; those of the process by default.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
-    try:
-        code = _answer(given)
-        sys.stdout.flush()  # here, where a reader that has gone is no traceback yet
-    except KeyboardInterrupt:
-        sys.stderr.write("quadlab: interrupted\n")
-        return EXIT_INTERRUPTED
-    except QuadlabError as error:
-        sys.stderr.write(f"quadlab: {error}\n")
-        return EXIT_USAGE
-    except BrokenPipeError:
-        _close_stdout()
-        return EXIT_FAILED
-    except OSError as error:
-        sys.stderr.write(f"quadlab: {os_error_line(error)}\n")
-        return EXIT_FAILED
-    return code
+    return exit_code(lambda: _answer(given))
 
 
 def _answer(given: Sequence[str]) -> int:
@@ -54,13 +36,6 @@ def _answer(given: Sequence[str]) -> int:
     options = _parser().parse_args(given)
     action: Callable[[argparse.Namespace], int] = options.action
     return action(options)
-
-
-def _close_stdout() -> None:
-    """Send what is left of the output nowhere, so that Python does not try again to write it when it ends."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, sys.stdout.fileno())
-    os.close(nowhere)
 
 
 def _is_override(given: Sequence[str]) -> bool:

@@ -6,7 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TextIO
 
-EXIT_OK, EXIT_INCOMPLETE, EXIT_USAGE = 0, 1, 2
+from quadlab.command_line import EXIT_OK, EXIT_USAGE
+
+EXIT_INCOMPLETE = 1
 _FOLDER = "folder of the trials, usually results/<tag>"
 
 

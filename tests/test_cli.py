@@ -26,6 +26,8 @@ def _quadlab(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
         (("gait.nmae=trot",), "gait.nmae: unknown key; did you mean 'name'?"),
         (("run", "seed=-1"), "seed: input should be greater than or equal to 0 (got -1)"),
         (("run", "gait.cycles.x.strides=1"), "Index 'x' (str) is not an int"),
+        (("run", "experiment=nothing"), "experiment: unknown 'nothing'; known: bellicoso2016_"),
+        (("plan", "shard=hello"), "shard: expected i/n such as 0/4"),
         (("run", "duration_s=[1"), "duration_s=[1: cannot be read as key=value"),
     ],
 )
@@ -54,6 +56,12 @@ def test_help_lists_groups_and_options(tmp_path: Path) -> None:
     assert done.returncode == 0
     assert "gait: " in done.stdout
     assert "trot" in done.stdout
+
+
+def test_study_taken_for_an_experiment_is_told_how_to_run(tmp_path: Path) -> None:
+    done = _quadlab("run", "experiment=comparison", cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.endswith("'comparison' is a study: python experiments/run_study.py comparison\n")
 
 
 def test_version(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,21 +1,24 @@
-"""What each part of the controller is good for: the largest push on the trot with one part changed at a time."""
+"""What each part of the controller is good for: the largest push and the highest plank with one part changed."""
+
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from paper_figures.known_limits import known_limits
-from paper_figures.push_limits import speeds_mps
+from paper_figures.push_limits import ANYMAL_KG, PUSH_S
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.geometry.rotations import Array
-from quadlab.plotting.style import COLUMN_WIDTH, NEUTRAL, SERIES, paper_style
+from quadlab.plotting.style import NEUTRAL, SERIES, TEXT_WIDTH, paper_style
 
 STUDY = "ablations"
 CAPTION = (
-    "Largest sideways, forward or backward push of 0.15 s that a trot of ANYmal B survives, as J/m; estimator "
-    "ekf, planner vertex_zmp and controller hierarchical but for what is named. Bars: median of four cases; dots: "
-    "the cases, those with the same limit below each other."
+    "What a trot of ANYmal B survives: the largest push of 0.15 s to four sides, as J/m, and the highest plank that it "
+    "does not know of, at three places; estimator ekf, planner vertex_zmp and controller hierarchical but for what is "
+    "named. Bars: median of the cases; dots: the cases, those with the same limit below each other."
 )
 ARTEFACT = Artefact("X-S1 ablations", "comparison", "One part of the controller changed at a time", (STUDY,), CAPTION)
 DOT_ROWS = 0.26
@@ -23,24 +26,50 @@ DOT_ROWS = 0.26
 REFERENCE = "reference"
 
 
+@dataclass(frozen=True)
+class Limit:
+    """What is searched for.
+
+    Attributes:
+        disturbance: level of that factor.
+        text: with its unit.
+        scale: from the unit of the search.
+        digits: behind the point.
+    """
+
+    disturbance: str
+    text: str
+    scale: float
+    digits: int
+
+
+LIMITS = (
+    Limit("push", "largest push, J/m [m/s]", PUSH_S / ANYMAL_KG, 2),
+    Limit("plank", "highest plank [cm]", 100.0, 0),
+)
+
+
 @paper_style()
 def draw(results: StudyResults) -> Figure:
-    """Return one bar a variant, the median over the cases, and the single cases as dots."""
-    limits = _speeds(results)
+    """Return one bar a variant, the median over the cases, and the single cases as dots; one panel a disturbance."""
     table = numbers(results)
-    figure = Figure(figsize=(COLUMN_WIDTH, 0.19 * len(table) + 0.6), layout="constrained")
-    axes = figure.subplots()
-    places = range(len(table))
-    colours = [SERIES[1] if name == REFERENCE else NEUTRAL for name in table["variant"]]
-    axes.barh(places, table["median_mps"], color=colours, height=0.65)
-    for place, name in zip(places, table["variant"], strict=True):
-        single = limits.loc[limits["variant"] == name, "mps"]
-        axes.plot(single, place + stacked(single), "o", color=SERIES[0], markersize=2.2, clip_on=False)
-    axes.set_yticks(list(places), table["variant"])
-    axes.invert_yaxis()
-    axes.grid(visible=False, axis="y")
-    axes.set_xlabel("largest push, J/m [m/s]; bar: median")
+    variants = list(dict.fromkeys(table["variant"]))
+    figure = Figure(figsize=(TEXT_WIDTH, 0.19 * len(variants) + 0.6), layout="constrained")
+    panels = figure.subplots(1, len(LIMITS), sharey=True, squeeze=False)[0]
+    for axes, limit in zip(panels, LIMITS, strict=True):
+        _draw_limits(axes, limit, _limits(results, limit), variants)
+    panels[0].set_yticks(range(len(variants)), variants)
+    panels[0].invert_yaxis()
     return figure
+
+
+def _draw_limits(axes: Axes, limit: Limit, limits: pd.DataFrame, variants: list[str]) -> None:
+    for place, name in enumerate(variants):
+        single = limits.loc[limits["variant"] == name, "value"]
+        axes.barh(place, single.median(), color=SERIES[1] if name == REFERENCE else NEUTRAL, height=0.65)
+        axes.plot(single, place + stacked(single), "o", color=SERIES[0], markersize=2.2, clip_on=False)
+    axes.grid(visible=False, axis="y")
+    axes.set_xlabel(limit.text)
 
 
 def stacked(values: "pd.Series[float]") -> Array:
@@ -51,25 +80,30 @@ def stacked(values: "pd.Series[float]") -> Array:
     return np.asarray(DOT_ROWS * (rank - 0.5 * (count - 1)), dtype=float)
 
 
-def _speeds(results: StudyResults) -> pd.DataFrame:
+def _limits(results: StudyResults, limit: Limit) -> pd.DataFrame:
+    """Return the searches of one disturbance, their limits as ``value``, 0 where the smallest is too much already."""
     limits = known_limits(results, STUDY)
-    return limits.assign(mps=speeds_mps(limits))
+    limits = limits[limits["disturbance"] == limit.disturbance]
+    return limits.assign(value=limit.scale * limits["limit"].fillna(0.0))
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:
-    """Return minimum and median over the cases, one row a variant, in the order of the study."""
-    groups = _speeds(results).groupby("variant", sort=False)["mps"]
-    return groups.agg(minimum_mps="min", median_mps="median", cases="count").reset_index()
+    """Return minimum and median over the cases, one row a disturbance and variant, in the order of the study."""
+    groups = [_limits(results, limit).groupby(["disturbance", "variant"], sort=False)["value"] for limit in LIMITS]
+    tables = [group.agg(minimum="min", median="median", cases="count").reset_index() for group in groups]
+    return pd.concat(tables, ignore_index=True)
 
 
 def claims(results: StudyResults) -> list[Claim]:
-    """Return one line a variant."""
+    """Return one line a variant and disturbance."""
+    table = numbers(results)
     return [
         Claim(
-            f"{row['variant']}: push survived on the trot, minimum / median [m/s]",
+            f"{row['variant']}: {limit.text} survived on the trot, minimum / median",
             "-",
-            f"{row['minimum_mps']:.2f} / {row['median_mps']:.2f} ({row['cases']} cases)",
+            f"{row['minimum']:.{limit.digits}f} / {row['median']:.{limit.digits}f} ({row['cases']} cases)",
             Verdict.NEW,
         )
-        for _, row in numbers(results).iterrows()
+        for limit in LIMITS
+        for _, row in table[table["disturbance"] == limit.disturbance].iterrows()
     ]

@@ -3,13 +3,14 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from quadlab.analysis.collection import COMMIT_LENGTH
 from quadlab.analysis.inventory import EntryState, TrialEntry, trial_entries
 from quadlab.errors import LogError
 from quadlab.paths import checkout_dir
-from quadlab.sweeps.record import asked_for
+from quadlab.sweeps.record import sweep_records
 from quadlab.trials.job import CONFIG_FILE
 from quadlab.trials.manifest import git_state
 
@@ -23,14 +24,19 @@ class SweepStatus:
     Attributes:
         folder: that was looked at.
         entries: all trials that are there.
-        names: of the trials that sweeps asked for, by trial id.
+        records: what each sweep asked for: names by trial id.
         commit: of the code now; None if unknown.
     """
 
     folder: Path
     entries: tuple[TrialEntry, ...]
-    names: Mapping[str, str]
+    records: Mapping[Path, Mapping[str, str]]
     commit: str | None
+
+    @cached_property
+    def names(self) -> dict[str, str]:
+        """Names of the trials that sweeps asked for, by trial id."""
+        return {trial: name for record in self.records.values() for trial, name in record.items()}
 
     @property
     def missing(self) -> list[str]:
@@ -62,6 +68,9 @@ class SweepStatus:
                 yield self._line(entry.state.value, entry.directory, entry.reason)
         for name in self.missing:
             yield self._line("missing", self.folder / name, "")
+        for path, record in self.records.items():
+            if wanted := len(record.keys() & set(self.missing)):
+                yield f"  {path} asked for {wanted} of the missing; remove it if they are not wanted any more"
         for entry in self.without_config:
             yield self._line(
                 _NO_CONFIG, entry.directory, f"no {CONFIG_FILE} that can be read; force=true runs it again"
@@ -96,10 +105,10 @@ def sweep_status(folder: Path) -> SweepStatus:
     Raises:
         LogError: if it is not there, holds no trials and was never meant to, or holds what cannot be read.
     """
-    entries, names, git = tuple(trial_entries(folder)), asked_for(folder), git_state(checkout_dir())
-    if not entries and not names:
+    entries, records, git = tuple(trial_entries(folder)), sweep_records(folder), git_state(checkout_dir())
+    if not entries and not records:
         raise LogError(f"{folder}: no trial in it, and no sweep asked for one; expected results/<tag>")
-    return SweepStatus(folder, entries, names, git["commit"] if git else None)
+    return SweepStatus(folder, entries, records, git["commit"] if git else None)
 
 
 def _short(commit: str | None) -> str:

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from quadlab.planners.plan import MotionPlan
-from quadlab.trials.main import plan_main
+from quadlab.sweeps.main import with_sweep_checked
+from quadlab.trials.main import plan_document, run_jobs
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -14,7 +15,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Args:
         arguments: overrides and Hydra's flags; those of the process by default.
     """
-    return plan_main(arguments, draw_plan)
+    return run_jobs(arguments, with_sweep_checked(lambda document: plan_document(document, draw_plan)))
 
 
 def draw_plan(plan: MotionPlan, folder: Path) -> list[Path]:

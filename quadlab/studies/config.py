@@ -1,5 +1,6 @@
 """What a study is: the file ``conf/study/<name>.yaml``."""
 
+import hashlib
 from typing import Annotated, Self, TypeAlias
 
 import yaml
@@ -100,6 +101,12 @@ class StudyConfig(StrictModel):
     plans: dict[str, dict[str, Level]] = Field(default_factory=dict)
     report_by: tuple[str, ...]
     report_columns: tuple[str, ...] = ()
+
+    @property
+    def kept_hash(self) -> str:
+        """A hash of which curves and plans are kept: files that were made for others are made again."""
+        kept = self.model_dump_json(include={"traces", "plans"})
+        return hashlib.sha256(kept.encode()).hexdigest()
 
 
 def study_names() -> list[str]:

@@ -7,9 +7,15 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import yaml
+
+from quadlab.analysis.yaml_text import load_yaml
 from quadlab.paths import CONF_DIR
 from quadlab.studies.config import TraceConfig
 from quadlab.trials.files import write_json
+
+_NOT_OF_TRIALS = {"study", "launcher"}
+"""Folders of configuration that change no trial; a study's own jobs are named after what they override."""
 
 
 @dataclass(frozen=True)
@@ -97,11 +103,26 @@ def write_row(folder: StudyFolder, identifier: str, settings: str, row: dict[str
 
 @cache
 def configuration_hash() -> str:
-    """Return one hash of all YAML files: rows remembered under another one are looked at again."""
+    """Return one hash of what the YAML files say that trials are made of: rows remembered under another one are stale.
+
+    Comments do not count, nor do other studies and how sweeps are launched.
+    """
     digest = hashlib.sha256()
     for path in sorted(CONF_DIR.rglob("*.yaml")):
-        digest.update(str(path.relative_to(CONF_DIR)).encode() + b"\0" + path.read_bytes())
+        name = path.relative_to(CONF_DIR)
+        if name.parts[0] not in _NOT_OF_TRIALS:
+            digest.update(json.dumps([str(name), *_content(path)], default=str).encode())
     return digest.hexdigest()
+
+
+def _content(path: Path) -> list[Any]:
+    """Return what Hydra reads of a file; as its text if it is no YAML, which is said elsewhere."""
+    text = path.read_text(encoding="utf-8", errors="replace")
+    directives = [line for line in text.splitlines() if line.startswith("# @package")]
+    try:
+        return [directives, load_yaml(text)]
+    except (yaml.YAMLError, ValueError):
+        return [text]
 
 
 def file_hash(path: Path) -> str:

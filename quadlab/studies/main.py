@@ -2,16 +2,15 @@
 
 import argparse
 import os
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from quadlab.errors import QuadlabError, os_error_line
+from quadlab.command_line import EXIT_FAILED, EXIT_OK, exit_code
 from quadlab.studies.config import study_names
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.runner import run_studies
 
-EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 130
+INTERRUPTED = "interrupted; what is done stays, run the same command to go on"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -21,23 +20,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--jobs", type=_positive, default=usable_cores(), help="processes at a time")
     parser.add_argument("--results", type=Path, default=Path("results"), help="folder of all results")
     options = parser.parse_args(arguments)
+    return exit_code(lambda: _run(options), INTERRUPTED)
+
+
+def _run(options: argparse.Namespace) -> int:
     progress = StudyProgress()
-    try:
-        errors = run_studies(options.study, options.results, options.jobs, progress)
-        for name in options.study:
-            report = options.results / name / "report.md"
-            progress.say(f"{report}:\n{report.read_text(encoding='utf-8')}")
-    except QuadlabError as error:
-        for line in str(error).splitlines():
-            sys.stderr.write(f"quadlab: {line}\n")
-        return EXIT_USAGE
-    except OSError as error:
-        sys.stderr.write(f"quadlab: {os_error_line(error)}\n")
-        return EXIT_FAILED
-    except KeyboardInterrupt:
-        sys.stderr.write("quadlab: interrupted; what is done stays, run the same command to go on\n")
-        return EXIT_INTERRUPTED
-    return EXIT_FAILED if errors else 0
+    errors = run_studies(options.study, options.results, options.jobs, progress)
+    for name in options.study:
+        report = options.results / name / "report.md"
+        progress.say(f"{report}:\n{report.read_text(encoding='utf-8')}")
+    return EXIT_FAILED if errors else EXIT_OK
 
 
 def _positive(text: str) -> int:

@@ -11,6 +11,7 @@ from quadlab.analysis.log_reader import read_log
 from quadlab.analysis.trial_config import logged_config
 from quadlab.analysis.trial_directory import find_log
 from quadlab.analysis.trial_log import TrialLog
+from quadlab.errors import ConfigurationError
 from quadlab.planners.plan_io import save_plan
 from quadlab.plotting.trial_video import recorded_motion
 from quadlab.robots.model import load_robot
@@ -19,6 +20,7 @@ from quadlab.simulation.rendering.renderer import render_frames
 from quadlab.simulation.rendering.strip import write_png
 from quadlab.studies.config import TraceConfig
 from quadlab.studies.files import StudyFolder
+from quadlab.trials.problems import suggestion
 
 
 def write_trace(trace: TraceConfig, folder: StudyFolder, directory: Path) -> None:
@@ -39,15 +41,19 @@ def write_trace(trace: TraceConfig, folder: StudyFolder, directory: Path) -> Non
 
 
 def chosen_columns(log: TrialLog, trace: TraceConfig) -> pd.DataFrame:
-    """Return the columns that match, named ``<table>.<column>``, thinned out to the rate, in single precision."""
+    """Return the columns that match, named ``<table>.<column>``, thinned out to the rate, in single precision.
+
+    Raises:
+        ConfigurationError: if a pattern matches none.
+    """
     tables = {"state": log.state, "estimate": log.estimate, "control": log.control, "levels": log.levels}
-    columns = {
-        f"{name}.{column}": table[column]
-        for name, table in tables.items()
-        for column in table.columns
-        if matches_any(f"{name}.{column}", trace.columns)
-    }
-    chosen = pd.DataFrame(columns).astype(np.float32)
+    columns = {f"{name}.{column}": table[column] for name, table in tables.items() for column in table.columns}
+    for pattern in trace.columns:
+        if not any(fnmatch(name, pattern) for name in columns):
+            raise ConfigurationError(f"trace '{trace.name}': no column '{pattern}'; {suggestion(pattern, columns)}")
+    chosen = pd.DataFrame(
+        {name: column for name, column in columns.items() if matches_any(name, trace.columns)}
+    ).astype(np.float32)
     period_s = float(np.median(np.diff(chosen.index.to_numpy(float)))) if len(chosen) > 1 else 1.0
     return chosen.iloc[:: max(1, round(1.0 / (period_s * trace.rate_hz)))]
 

@@ -28,7 +28,7 @@ class Work:
     @property
     def settings(self) -> str:
         """What the row depends on besides the overrides."""
-        return f"{self.study.job} {configuration_hash()}"
+        return f"{self.study.job} {configuration_hash()} {self.study.kept_hash}"
 
     @property
     def traces(self) -> list[TraceConfig]:

@@ -5,20 +5,13 @@ wrong, nothing was run; 130 interrupted.
 """
 
 import sys
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from typing import TYPE_CHECKING
 
+from quadlab.command_line import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, EXIT_USAGE, complain
 from quadlab.errors import ConfigurationError, QuadlabError, os_error_line
-from quadlab.trials.main import (
-    EXIT_FAILED,
-    EXIT_INTERRUPTED,
-    EXIT_OK,
-    EXIT_USAGE,
-    complain,
-    run_document,
-    run_jobs,
-)
+from quadlab.trials.main import run_document, run_jobs
 
 if TYPE_CHECKING:
     from omegaconf import DictConfig
@@ -38,19 +31,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: overrides and Hydra's flags; those of the process by default.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
-    return run_sweep(given) if is_sweep(given) else run_jobs(given, run_alone)
+    return run_sweep(given) if is_sweep(given) else run_jobs(given, with_sweep_checked(run_document))
 
 
-def run_alone(document: "DictConfig") -> int:
-    """Run one composed configuration and return its exit code; what it says of sweeps has to be right as well."""
-    from quadlab.sweeps.options import sweep_options  # noqa: PLC0415
+def with_sweep_checked(job: "Callable[[DictConfig], int]") -> "Callable[[DictConfig], int]":
+    """Return ``job``, a trial or plan alone, refusing documents that say anything wrong of sweeps."""
 
-    try:
-        sweep_options(document)
-    except ConfigurationError as error:
-        complain(str(error))
-        return EXIT_USAGE
-    return run_document(document)
+    def checked(document: "DictConfig") -> int:
+        from quadlab.sweeps.options import sweep_options  # noqa: PLC0415
+
+        try:
+            sweep_options(document)
+        except ConfigurationError as error:
+            complain(str(error))
+            return EXIT_USAGE
+        return job(document)
+
+    return checked
 
 
 def is_sweep(arguments: Sequence[str]) -> bool:
@@ -74,6 +71,8 @@ def run_sweep(arguments: Sequence[str]) -> int:
     except QuadlabError as error:
         complain(str(error))
         return EXIT_FAILED
+    except BrokenPipeError:  # whoever read the output has gone
+        raise
     except OSError as error:
         complain(os_error_line(error))
         return EXIT_FAILED

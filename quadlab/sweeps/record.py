@@ -29,18 +29,15 @@ def record_sweep(trials: Sequence[SweepTrial], options: RunOptions) -> list[Path
     return [_write(Path(options.results_dir) / tag / FOLDER, names) for tag, names in by_tag.items()]
 
 
-def asked_for(folder: Path) -> dict[str, str]:
-    """Return the names of all trials that any sweep into ``folder`` or a tag below it asked for, by trial id.
+def sweep_records(folder: Path) -> dict[Path, dict[str, str]]:
+    """Return the record of each sweep into ``folder`` or a tag below it: the names of its trials, by trial id.
 
     Empty if no sweep is known.
 
     Raises:
         LogError: if the record of a sweep cannot be read.
     """
-    names: dict[str, str] = {}
-    for path in sorted(folder.rglob(f"{FOLDER}/*.json")):
-        names |= _read(path)
-    return names
+    return {path: _read(path) for path in sorted(folder.rglob(f"{FOLDER}/*.json"))}
 
 
 def _read(path: Path) -> dict[str, str]:

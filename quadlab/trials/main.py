@@ -16,14 +16,13 @@ from hydra.core.hydra_config import HydraConfig
 from hydra.types import RunMode
 from omegaconf import DictConfig
 
+from quadlab.command_line import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, EXIT_USAGE, complain
 from quadlab.errors import LogError, QuadlabError, os_error_line
 from quadlab.paths import CONF_DIR
 from quadlab.trials.override_problems import COMPOSITION_ERRORS, UNTYPED_COMPOSITION_ERRORS, composition_problem
 
 if TYPE_CHECKING:
     from quadlab.planners.plan import MotionPlan
-
-EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
 class JobFailedError(Exception):
@@ -45,16 +44,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: overrides and Hydra's flags; those of the process by default.
     """
     return run_jobs(arguments, run_document)
-
-
-def plan_main(arguments: Sequence[str] | None, draw: DrawPlan) -> int:
-    """Plan what the arguments say, without a trial, and return the exit code.
-
-    Args:
-        arguments: overrides and Hydra's flags; those of the process by default.
-        draw: called with every plan found.
-    """
-    return run_jobs(arguments, lambda document: plan_document(document, draw))
 
 
 def run_jobs(arguments: Sequence[str] | None, job: Callable[[DictConfig], int]) -> int:
@@ -151,9 +140,3 @@ def plan_document(document: DictConfig, draw: DrawPlan) -> int:
         return EXIT_FAILED
     sys.stdout.write(plan_report(job))
     return EXIT_OK
-
-
-def complain(problem: str) -> None:
-    """Print what is wrong to standard error."""
-    for line in problem.splitlines():
-        sys.stderr.write(f"quadlab: {line}\n")

@@ -7,6 +7,7 @@ import yaml
 from hydra.errors import HydraException, MissingConfigException, OverrideParseException
 from omegaconf.errors import OmegaConfBaseException
 
+from quadlab.paths import CONF_DIR
 from quadlab.trials.problems import suggestion
 
 COMPOSITION_ERRORS = (HydraException, OmegaConfBaseException, yaml.YAMLError)
@@ -53,6 +54,8 @@ def _unknown_option(error: MissingConfigException) -> str:
     if error.options is None:
         return f"{error.missing_cfg_file}: no such configuration file"
     hint = "; others are packages, e.g. pip install hydra-ray-launcher" if group == "hydra/launcher" else ""
+    if group == "experiment" and (CONF_DIR / "study" / f"{option}.yaml").is_file():
+        hint = f"; '{option}' is a study: python experiments/run_study.py {option}"
     return f"{group}: unknown '{option}'; {suggestion(option, error.options)}{hint}"
 
 

@@ -66,6 +66,24 @@ def test_what_figures_need_is_kept(study_folder: Path, tmp_path: Path) -> None:
         results.limits("standing")
 
 
+def test_curves_are_made_again_if_others_are_asked_for(study_folder: Path, tmp_path: Path) -> None:
+    _run(tmp_path / "results")
+    text = yaml.safe_dump(STUDY).replace("state.base_position_*", "state.base_quat_?")
+    (study_folder / "standing.yaml").write_text(text)
+    _run(tmp_path / "results")
+    kept = StudyResults(tmp_path / "results").trace("standing", "first")
+    assert list(kept.columns) == [f"state.base_quat_{axis}" for axis in "wxyz"]
+
+
+def test_curves_that_do_not_exist_are_said(study_folder: Path, tmp_path: Path) -> None:
+    text = yaml.safe_dump(STUDY).replace("state.base_position_*", "state.base_positoin_x")
+    (study_folder / "standing.yaml").write_text(text)
+    output = StringIO()
+    assert run_studies(["standing"], tmp_path / "results", 1, StudyProgress(output)) == 1
+    line = "error: trace 'first': no column 'state.base_positoin_x'; did you mean 'state.base_position_x'"
+    assert line in output.getvalue()
+
+
 STANDING = ["command=in_place", "duration_s=1.2"]
 SEARCH = {"key": "seed", "lowest": 0, "step": 1, "highest": 3, "confirm": 0}
 

@@ -1,5 +1,7 @@
 """The command that runs studies answers a mistake in one line and exit code 2."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -20,6 +22,17 @@ def test_folder_of_results_that_is_a_file_is_one_line(tmp_path: Path, capsys: py
     taken.write_text("")
     assert main(["gehring2017_trot_plan", "--results", str(taken)]) == 1
     assert capsys.readouterr().err == f"quadlab: {taken}/gehring2017_trot_plan: Not a directory\n"
+
+
+def test_reader_that_has_gone_is_no_mistake(tmp_path: Path) -> None:
+    code = "import sys; from quadlab.studies.main import main; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", code, "gehring2017_trot_plan", "--results", str(tmp_path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        process.stdout.close()
+        assert process.stderr is not None
+        assert process.stderr.read() == ""
+    assert process.returncode == 1
 
 
 @pytest.mark.parametrize("jobs", ["0", "-1", "two"])

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from quadlab.errors import ConfigurationError
-from quadlab.studies import config
+from quadlab.studies import config, files
 from quadlab.studies.files import StudyFolder, read_row, write_row
 
 
@@ -14,6 +14,33 @@ def test_remembered_row_comes_back_for_the_same_settings_only(tmp_path: Path) ->
     write_row(folder, "a", "settings", {"x": 1})
     assert read_row(folder, "a", "settings") == {"x": 1}
     assert read_row(folder, "a", "others") is None
+
+
+def _hash_of(folder: Path, monkeypatch: pytest.MonkeyPatch, **contents: str) -> str:
+    for name, text in contents.items():
+        path = folder / name / "a.yaml"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text)
+    monkeypatch.setattr(files, "CONF_DIR", folder)
+    return files.configuration_hash.__wrapped__()
+
+
+@pytest.mark.parametrize(
+    ("changed", "same"),
+    [
+        ({"gait": "b: 1 # why"}, True),
+        ({"study": "title: other"}, True),
+        ({"launcher": "workers: 3"}, True),
+        ({"gait": "b: 2"}, False),
+        ({"gait": "# @package _global_\nb: 1"}, False),
+        ({"gait": "b: [1"}, False),
+    ],
+)
+def test_only_what_trials_are_made_of_makes_rows_stale(
+    changed: dict[str, str], same: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = _hash_of(tmp_path, monkeypatch, gait="b: 1", study="title: one", launcher="workers: 2")
+    assert (_hash_of(tmp_path, monkeypatch, **changed) == before) is same
 
 
 @pytest.mark.parametrize("content", [b"\xff", b"{", b"[1]", b'{"settings": "s"}', b'{"settings": "s", "row": 3}'])
