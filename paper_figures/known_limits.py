@@ -1,4 +1,4 @@
-"""Limits of a study, of which every one was found."""
+"""Limits of a study, of which every one was found, and how they are told."""
 
 import pandas as pd
 
@@ -20,3 +20,8 @@ def known_limits(results: StudyResults, study: str) -> pd.DataFrame:
             f"python experiments/run_study.py {study} runs these again"
         )
     return limits
+
+
+def limit_text(value: float, digits: int) -> str:
+    """Return the limit in words: one of zero is that not even the smallest value tried was survived."""
+    return f"{value:.{digits}f}" if value > 0.0 else "none tried"

@@ -2,6 +2,7 @@
 
 import pandas as pd
 
+from paper_figures.known_limits import limit_text
 from paper_figures.trial_claims import VARIANTS, completed, survival
 from quadlab.analysis.artefact import Claim, Verdict
 
@@ -16,7 +17,7 @@ CASE = ["direction", "scenario.pushes.0.start_s"]
 
 
 def speeds_mps(limits: pd.DataFrame) -> "pd.Series[float]":
-    """Return the change of velocity J / m of the largest force survived, 0 where even the smallest fells it."""
+    """Return the change of velocity J / m of the largest force survived, 0 where even the smallest tried fells it."""
     return limits["limit"].fillna(0.0) * PUSH_S / ANYMAL_KG
 
 
@@ -40,10 +41,14 @@ def limit_claims(limits: pd.DataFrame, table: pd.DataFrame, needed_mps: tuple[fl
     why = "" if holds else f"Below the {aim}; {weak} cases are below {needed_mps[0]:g}."
     at_one_size = table[table["variant"] == SIZE]
     text = f"largest push survived ({what}), minimum / median J/m [m/s]"
-    ours = f"{minimum:.2f} / {median:.2f}, {len(reference)} cases"
+    ours = f"{_of_both(reference)}, {len(reference)} cases"
     first = Claim(text, "not printed", ours, Verdict.NEW, " ".join(filter(None, [why, _smaller_falls(at_one_size)])))
     one_size = survival(f"stays up {SIZE} in every case ({what})", at_one_size, "not printed")
     return [first, one_size, *_variant_claims(limits, text)]
+
+
+def _of_both(speeds: "pd.Series[float]") -> str:
+    return f"{limit_text(speeds.min(), 2)} / {limit_text(speeds.median(), 2)}"
 
 
 def _smaller_falls(at_one_size: pd.DataFrame) -> str:
@@ -62,10 +67,7 @@ def _variant_claims(limits: pd.DataFrame, text: str) -> list[Claim]:
         rows = limits[limits["variant"] == level]
         if len(rows):
             speeds, whole = speeds_mps(rows), speeds_mps(same_cases(limits, rows))
-            ours = (
-                f"{speeds.min():.2f} / {speeds.median():.2f}, {len(speeds)} cases; "
-                f"reference there {whole.min():.2f} / {whole.median():.2f}"
-            )
+            ours = f"{_of_both(speeds)}, {len(speeds)} cases; reference there {_of_both(whole)}"
             claims.append(Claim(f"{text}: {name}", "not printed", ours, Verdict.NEW))
     return claims
 

@@ -7,7 +7,7 @@ from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MultipleLocator
 
 from paper_figures.comparison_variants import COLOURS, CONTROLLERS, DASHES, PLANNERS, STUDY, artefact
-from paper_figures.known_limits import known_limits
+from paper_figures.known_limits import known_limits, limit_text
 from paper_figures.push_limits import speeds_mps
 from quadlab.analysis.artefact import Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
@@ -15,12 +15,14 @@ from quadlab.plotting.style import TEXT_WIDTH, paper_style
 
 CAPTION = (
     "Largest push of 0.15 s that ANYmal B survives by its direction, straight ahead is up; the radius is J/m in "
-    "m/s, the median over two phases of the stride. Blue: kinematic planner, orange: vertex ZMP; solid: "
-    "hierarchical, dashed: weighted. Estimator ekf."
+    "m/s, the median over two phases of the stride, on a grid of 0.1 m/s. Blue: kinematic planner, orange: vertex "
+    "ZMP; solid: hierarchical, dashed: weighted. Estimator ekf."
 )
 ARTEFACT = artefact("directions", "Largest push survived by direction", CAPTION)
 CIRCLES_MPS = 0.5
-"""Distance of circles in [m/s]; labels of the radius would lie on the curves."""
+"""Distance of circles in [m/s]."""
+LABELS_DEG = 22.5
+"""Where the circles are labelled: between two directions, of which no marker is near."""
 GAITS = ("trot", "walk")
 
 
@@ -29,13 +31,15 @@ def draw(results: StudyResults) -> Figure:
     """Return polar plots, one a gait: straight ahead is up, the radius is the change of velocity J / m."""
     limits = numbers(results)
     figure = Figure(figsize=(TEXT_WIDTH, 3.4), layout="constrained")
+    reach_mps = 1.04 * limits["median_mps"].max()
     for place, gait in enumerate(GAITS, 1):
         axes = figure.add_subplot(1, len(GAITS), place, projection="polar")
         assert isinstance(axes, PolarAxes)
         _draw_gait(axes, limits[limits["gait"] == gait])
-        axes.set_title(f"{gait}: largest push survived, J/m; circles every {CIRCLES_MPS:g} m/s")
+        axes.set_ylim(0.0, reach_mps)
+        axes.set_title(f"{gait}: largest push survived, J/m [m/s]", pad=10)
     handles, labels = figure.axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4)
+    figure.legend(handles, labels, loc="outside lower center", ncols=4, handlelength=3.0)
     return figure
 
 
@@ -54,9 +58,9 @@ def _draw_gait(axes: PolarAxes, limits: pd.DataFrame) -> None:
                 markersize=2.5,
                 label=f"{planner}, {controller}",
             )
-    axes.set_ylim(bottom=0.0)
     axes.yaxis.set_major_locator(MultipleLocator(CIRCLES_MPS))
-    axes.tick_params(axis="y", labelleft=False)
+    axes.set_rlabel_position(LABELS_DEG)
+    axes.tick_params(axis="y", labelsize=6.0)
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:
@@ -79,7 +83,7 @@ def claims(results: StudyResults) -> list[Claim]:
         Claim(
             f"{gait}, {planner}, {controller}: push survived, minimum / median over directions and phases [m/s]",
             "-",
-            f"{rows['mps'].min():.2f} / {rows['mps'].median():.2f} ({len(rows)} cases)",
+            f"{limit_text(rows['mps'].min(), 2)} / {limit_text(rows['mps'].median(), 2)} ({len(rows)} cases)",
             Verdict.NEW,
         )
         for (gait, planner, controller), rows in found.groupby(["gait", "planner", "controller"])

@@ -3,9 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
 import pandas as pd
-from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -13,17 +11,23 @@ from paper_figures.comparison_variants import FACTORS, STUDY, artefact
 from paper_figures.known_limits import known_limits
 from paper_figures.push_limits import ANYMAL_KG, PUSH_S
 from quadlab.analysis.artefact import Claim, Verdict
-from quadlab.analysis.paired import mean_difference
-from quadlab.analysis.statistics import Interval
+from quadlab.analysis.paired import pairs
+from quadlab.analysis.statistics import CONFIDENCE, holm_adjusted, paired_mean_difference, sign_flip_probability
 from quadlab.analysis.study_results import StudyResults
-from quadlab.plotting.style import TEXT_WIDTH, paper_style
+from quadlab.plotting.style import NEUTRAL, SERIES, TEXT_WIDTH, paper_style
 
+RELEVANT_PERCENT = 2.0
+"""Smaller differences, in per cent of the first one's mean or points of a share, matter to nobody."""
 CAPTION = (
     "Mean differences over conditions (disturbance, gait, seed, or direction and place of a search for a limit), each "
-    "the mean over both levels of the other factor, with intervals of 95 % that are not corrected for their number; "
-    "estimator ekf. Blue: the first is better, orange: the second, grey: not clear."
+    "the mean over both levels of the other factor, in per cent of the first one's mean, of completed trials in "
+    "points; estimator ekf. Axis linear within the grey band of 2 %, logarithmic beyond. Intervals of 95 %, not "
+    "corrected for their number; coloured if the mean leaves the band and a permutation test over the pairs, corrected "
+    "for all rows by Holm's method, says so at 5 %: blue where the first is better, orange the second. Errors, cost of "
+    "transport and times are those of conditions that all four completed."
 )
 ARTEFACT = artefact("differences", "Weighted or hierarchical, kinematic or vertex ZMP", CAPTION)
+TICKS_PERCENT = (-100, -10, -2, 0, 2, 10, 100)
 
 
 @dataclass(frozen=True)
@@ -52,7 +56,7 @@ class Measure:
 COMPLETED = "completed"
 """Column of 1 for trials that stayed up and 0 for others."""
 MEASURES = (
-    Measure("completed trials [share]", COMPLETED, True),
+    Measure("completed trials [%]", COMPLETED, True, 100.0),
     Measure("largest push [m/s]", "limit", True, PUSH_S / ANYMAL_KG, "push", searched=True),
     Measure("highest plank [cm]", "limit", True, 100.0, "plank", searched=True),
     Measure("deepest step down [cm]", "limit", True, 100.0, "step down", searched=True),
@@ -60,7 +64,7 @@ MEASURES = (
     Measure("roll and pitch, rms [deg]", "roll_pitch_rms_deg", False),
     Measure("cost of transport [-]", "cost_of_transport", False, by_gait=True),
     Measure("planning [ms]", "planning_solve_ms", False),
-    Measure("control tick, median [us]", "control_tick_median_us", False),
+    Measure("control tick, median [µs]", "control_tick_median_us", False),
 )
 KEYS = ("disturbance", "gait", "direction", "scenario.pushes.0.start_s", "scenario.terrain.0.center_x_m",
         "scenario.terrain.0.edge_x_m", "seed")  # fmt: skip
@@ -68,55 +72,64 @@ KEYS = ("disturbance", "gait", "direction", "scenario.pushes.0.start_s", "scenar
 
 @paper_style()
 def draw(results: StudyResults) -> Figure:
-    """Return differences with their 95 % intervals, one panel a measure and one column a question."""
+    """Return relative differences with their 95 % intervals, one row a measure and one column a question."""
     table = numbers(results)
     names = list(dict.fromkeys(table["measure"]))
-    figure = Figure(figsize=(TEXT_WIDTH, 0.36 * len(names) + 1.1), layout="constrained")
-    panels = figure.subplots(len(names), len(FACTORS), squeeze=False)
-    for column, (factor, (first, second)) in enumerate(FACTORS.items()):
-        panels[0, column].set_title(f"{second} minus {first}")
-        for row, name in enumerate(names):
-            entry = table[(table["factor"] == factor) & (table["measure"] == name)]
-            _draw_difference(panels[row, column], entry.iloc[0], label=column == 0)
-    meaning = "mean difference with 95 % interval; blue: the first is better, orange: the second, grey: not clear"
-    figure.supxlabel(meaning, fontsize=rcParams["axes.labelsize"])
+    figure = Figure(figsize=(TEXT_WIDTH, 0.21 * len(names) + 0.8), layout="constrained")
+    panels = figure.subplots(1, len(FACTORS), sharey=True, squeeze=False)[0]
+    for axes, (factor, (first, second)) in zip(panels, FACTORS.items(), strict=True):
+        axes.set_title(f"{second} minus {first}")
+        rows = table[table["factor"] == factor].set_index("measure")
+        for place, name in enumerate(names):
+            _draw_difference(axes, place, rows.loc[name])
+        _style_axis(axes)
+    panels[0].set_yticks(range(len(names)), names)
+    panels[0].invert_yaxis()
+    figure.supxlabel("mean difference [%]; blue: the first is better, orange: the second, grey: no clear one", size=8)
     return figure
 
 
-def _draw_difference(axes: Axes, entry: "pd.Series[float]", *, label: bool) -> None:
-    estimate, lower, upper = (float(entry[name]) for name in ("difference", "lower", "upper"))
-    clear = lower > 0.0 or upper < 0.0
-    better = clear and ((estimate > 0.0) == bool(entry["larger_is_better"]))
-    colour = "#7f7f7f" if not clear else "#0072b2" if better else "#d55e00"
-    axes.errorbar([estimate], [0.0], xerr=[[estimate - lower], [upper - estimate]], fmt="o", color=colour, capsize=2)
-    axes.axvline(0.0, color="#1a1a1a", linewidth=0.6)
-    reach = 1.15 * max(abs(lower), abs(upper), 1e-9)
-    axes.set_xlim(-reach, reach)
-    axes.set_yticks([0.0], [str(entry["measure"])] if label else [""])
+def _draw_difference(axes: Axes, place: int, row: "pd.Series[float]") -> None:
+    estimate, lower, upper = (float(row[f"{name}_percent"]) for name in ("difference", "lower", "upper"))
+    better = better_of(row)
+    colour = NEUTRAL if better is None else SERIES[1] if better == FACTORS[str(row["factor"])][1] else SERIES[2]
+    axes.errorbar(
+        [estimate], [place], xerr=[[estimate - lower], [upper - estimate]], fmt="o", color=colour, capsize=2, ms=3.5
+    )
+
+
+def _style_axis(axes: Axes) -> None:
+    axes.axvspan(-RELEVANT_PERCENT, RELEVANT_PERCENT, color="#eeeeee", zorder=0)
+    axes.axvline(0.0, color=SERIES[0], linewidth=0.6)
+    axes.set_xscale("symlog", linthresh=RELEVANT_PERCENT, linscale=0.7)
+    axes.set_xlim(-150, 150)
+    axes.set_xticks(TICKS_PERCENT, [f"{tick:+d}" if tick else "0" for tick in TICKS_PERCENT])
+    axes.minorticks_off()
     axes.tick_params(axis="y", length=0.0)
-    axes.grid(visible=False, axis="y")
-    axes.spines["left"].set_visible(False)
-    axes.locator_params(axis="x", nbins=5)
-    axes.ticklabel_format(axis="x", style="plain", useOffset=False)
+    axes.grid(visible=True, axis="y", linewidth=0.3)
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:
-    """Return one row a question and measure: mean of both, difference and its 95 % interval."""
-    return pd.DataFrame(list(_rows(results.table(STUDY), known_limits(results, STUDY))))
+    """Return one row a question and measure: means of both, difference, its 95 % interval, and how clear it is.
+
+    ``probability`` is that of the test of signs, ``corrected`` the same for all rows together by Holm's method;
+    ``..._percent`` are relative to the mean of the first, those of the completed trials are points.
+    """
+    limits = known_limits(results, STUDY)
+    table = pd.DataFrame(list(_rows(results.table(STUDY), limits)))
+    return table.assign(corrected=holm_adjusted(table["probability"].to_numpy(float)))
 
 
 def _rows(table: pd.DataFrame, limits: pd.DataFrame) -> Iterator[dict[str, object]]:
     tracked = table[~table["disturbance"].isin(limits["disturbance"].unique())]
     tracked = tracked.assign(**{COMPLETED: (tracked["status"] == "completed").astype(float)})
     good, survived = tracked[tracked[COMPLETED] > 0.0], limits.fillna({"limit": 0.0})
-    for factor, levels in FACTORS.items():
+    for factor in FACTORS:
         for measure in MEASURES:
             source = survived if measure.searched else tracked if measure.column == COMPLETED else good
             for name, rows in _parts(source, measure):
                 scaled = rows.assign(**{measure.column: measure.scale * rows[measure.column]})
-                means, same = averaged(scaled, factor, measure.column)
-                difference = mean_difference(means, factor, levels, same, measure.column)
-                yield _row(factor, name, measure.larger_is_better, difference)
+                yield row_of(factor, name, measure, scaled)
 
 
 def _parts(source: pd.DataFrame, measure: Measure) -> Iterator[tuple[str, pd.DataFrame]]:
@@ -145,16 +158,43 @@ def averaged(table: pd.DataFrame, factor: str, column: str) -> tuple[pd.DataFram
     return means[means["count"] == len(FACTORS[other])], keys
 
 
-def _row(factor: str, name: str, larger_is_better: bool, difference: Interval) -> dict[str, object]:
+def row_of(factor: str, name: str, measure: Measure, rows: pd.DataFrame) -> dict[str, object]:
+    """Return what ``numbers`` says of a factor and a measure, before the correction for the number of rows."""
+    levels = FACTORS[factor]
+    means, same = averaged(rows, factor, measure.column)
+    wide = pairs(means, factor, levels, same, measure.column)
+    first, second = wide[levels[0]].to_numpy(float), wide[levels[1]].to_numpy(float)
+    difference = paired_mean_difference(first, second)
+    to_percent = 1.0 if measure.column == COMPLETED else 100.0 / first.mean()
+    differing = wide[first != second].reset_index()
+    kinds = [f"{disturbance}, {gait}" for disturbance, gait in differing[["disturbance", "gait"]].to_numpy()]
     return {
         "factor": factor,
         "measure": name,
+        "first_mean": first.mean(),
+        "second_mean": second.mean(),
         "difference": difference.estimate,
         "lower": difference.lower,
         "upper": difference.upper,
+        "difference_percent": to_percent * difference.estimate,
+        "lower_percent": to_percent * difference.lower,
+        "upper_percent": to_percent * difference.upper,
         "pairs": difference.count,
-        "larger_is_better": larger_is_better,
+        "probability": sign_flip_probability(first, second),
+        "larger_is_better": measure.larger_is_better,
+        "differing": len(differing),
+        "only_in": kinds[0] if len(set(kinds)) == 1 and len(kinds) < len(wide) else "",
+        "not_monotone": int((rows["monotone"] == False).sum()) if measure.searched else 0,  # noqa: E712 - or missing
     }
+
+
+def better_of(row: "pd.Series[float]") -> str | None:
+    """Return which of the two is better, or None if that is not clear or does not matter."""
+    first, second = FACTORS[str(row["factor"])]
+    estimate = float(row["difference_percent"])
+    if not (float(row["corrected"]) < 1.0 - CONFIDENCE and abs(estimate) > RELEVANT_PERCENT):
+        return None
+    return second if (estimate > 0.0) == bool(row["larger_is_better"]) else first
 
 
 def claims(results: StudyResults) -> list[Claim]:
@@ -165,8 +205,22 @@ def claims(results: StudyResults) -> list[Claim]:
 def _claim(row: "pd.Series[float]") -> Claim:
     first, second = FACTORS[str(row["factor"])]
     lower, upper, estimate = float(row["lower"]), float(row["upper"]), float(row["difference"])
-    values = f"{estimate:+.3g} ({lower:+.3g} to {upper:+.3g}), {row['pairs']} pairs"
-    if not (np.isfinite(lower) and (lower > 0.0 or upper < 0.0)):
-        return Claim(f"{row['measure']}: {second} minus {first}", "-", values, Verdict.NEW, "No clear difference.")
-    better = second if (estimate > 0.0) == bool(row["larger_is_better"]) else first
-    return Claim(f"{row['measure']}: {second} minus {first}", "-", values, Verdict.NEW, f"{better} is better.")
+    ours = (
+        f"{estimate:+.3g} ({lower:+.3g} to {upper:+.3g}) of {float(row['first_mean']):.3g}, {row['pairs']} pairs, "
+        f"p = {float(row['corrected']):.2g}"
+    )
+    return Claim(f"{row['measure']}: {second} minus {first}", "-", ours, Verdict.NEW, " ".join(_remarks(row)))
+
+
+def _remarks(row: "pd.Series[float]") -> Iterator[str]:
+    better = better_of(row)
+    if better is not None:
+        yield f"{better} is better."
+    elif float(row["corrected"]) < 1.0 - CONFIDENCE:
+        yield f"Clear, but less than {RELEVANT_PERCENT:g} %."
+    else:
+        yield "No clear difference."
+    if row["only_in"]:
+        yield f"All {row['differing']} pairs that differ are of one kind: {row['only_in']}."
+    if row["not_monotone"]:
+        yield f"Below {row['not_monotone']} of the limits a smaller value was not survived."

@@ -4,8 +4,6 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from quadlab.analysis.statistics import Interval, paired_mean_difference
-
 
 def pairs(table: pd.DataFrame, factor: str, levels: tuple[str, str], same: Sequence[str], column: str) -> pd.DataFrame:
     """Return a column for both levels side by side, one row a condition that has both.
@@ -23,11 +21,3 @@ def pairs(table: pd.DataFrame, factor: str, levels: tuple[str, str], same: Seque
     chosen = chosen.assign(**{name: chosen[name].astype(str).where(chosen[name].notna(), "") for name in same})
     wide = chosen.pivot_table(index=list(same), columns=factor, values=column, aggfunc="first", observed=True)
     return wide.reindex(columns=list(levels)).dropna()
-
-
-def mean_difference(
-    table: pd.DataFrame, factor: str, levels: tuple[str, str], same: Sequence[str], column: str
-) -> Interval:
-    """Return the mean of second minus first over pairs with its 95 % interval; see ``pairs``."""
-    wide = pairs(table, factor, levels, same, column)
-    return paired_mean_difference(wide[levels[0]].to_numpy(float), wide[levels[1]].to_numpy(float))

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from itertools import product
 from statistics import NormalDist
 
 import numpy as np
@@ -108,6 +109,47 @@ def paired_share_difference(only_first: int, only_second: int, count: int, confi
     half_width = _normal_quantile(confidence) * math.sqrt(variance)
     difference = (only_second - only_first) / count
     return Interval(difference, max(-1.0, centre - half_width), min(1.0, centre + half_width), count)
+
+
+def sign_flip_probability(first: Array, second: Array, resamples: int = 9999) -> float:
+    """Return the two-sided probability of a mean difference of pairs as large as this if neither were larger.
+
+    A permutation test (Fisher 1935, "The design of experiments"): if neither is larger, each pair could as well be the
+    other way round. It assumes independent pairs and no distribution; five pairs never give less than 1/16. Pairs that are equal count
+    for neither. All ways to turn the pairs are tried where these are not more than ``resamples``, else so many at
+    random, the same in every call.
+
+    Args:
+        first, second: (n,) values of the same n conditions; both finite.
+        resamples: at most.
+
+    Raises:
+        ValueError: if the shapes differ or a value is not finite.
+    """
+    differences = _paired(first, second)
+    differences = differences[differences != 0.0]
+    count = len(differences)
+    if count == 0:
+        return 1.0
+    observed = abs(differences.sum()) * (1.0 - 1e-12)  # sums in another order round otherwise
+    if 2**count <= resamples:
+        turned = np.array(list(product((-1.0, 1.0), repeat=count)))
+        return float(np.mean(np.abs(turned @ differences) >= observed))
+    random = np.random.default_rng(0)
+    turned = random.choice((-1.0, 1.0), (resamples, count))
+    return float((1 + np.count_nonzero(np.abs(turned @ differences) >= observed)) / (resamples + 1))
+
+
+def holm_adjusted(probabilities: Array) -> Array:
+    """Return probabilities (n,) of n tests, corrected so that all of them together err no more often than one.
+
+    Holm 1979, "A simple sequentially rejective multiple test procedure".
+    """
+    order = np.argsort(probabilities, kind="stable")
+    factors = len(probabilities) - np.arange(len(probabilities))
+    adjusted = np.empty(len(probabilities))
+    adjusted[order] = np.minimum(np.maximum.accumulate(factors * probabilities[order]), 1.0)
+    return adjusted
 
 
 def _normal_quantile(confidence: float) -> float:

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pandas as pd
-import pytest
 
-from quadlab.analysis.paired import mean_difference, pairs
+from quadlab.analysis.paired import pairs
 
 TABLE = pd.DataFrame(
     {
@@ -20,13 +19,6 @@ def test_pairs_agree_in_everything_else() -> None:
     found = pairs(TABLE, "controller", LEVELS, ["seed"], "error")
     assert list(found["weighted"]) == [2.0, 4.0]
     assert list(found["strict"]) == [1.0, 2.0]
-
-
-def test_mean_difference_is_second_minus_first() -> None:
-    difference = mean_difference(TABLE, "controller", LEVELS, ["seed"], "error")
-    assert difference.estimate == pytest.approx(-1.5)
-    assert difference.count == 2
-    assert difference.lower < -1.5 < difference.upper
 
 
 def test_column_that_says_nothing_of_a_condition_does_not_drop_it() -> None:

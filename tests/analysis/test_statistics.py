@@ -4,9 +4,15 @@ import math
 
 import numpy as np
 import pytest
-from scipy.stats import binom, binomtest, ttest_rel
+from scipy.stats import binom, binomtest, permutation_test, ttest_rel
 
-from quadlab.analysis.statistics import paired_mean_difference, paired_share_difference, wilson_interval
+from quadlab.analysis.statistics import (
+    holm_adjusted,
+    paired_mean_difference,
+    paired_share_difference,
+    sign_flip_probability,
+    wilson_interval,
+)
 
 
 @pytest.mark.parametrize(("successes", "count"), [(0, 10), (1, 1), (7, 10), (10, 10), (81, 263), (499, 500)])
@@ -85,3 +91,29 @@ def test_unequal_or_missing_pairs_are_refused() -> None:
         paired_mean_difference(np.zeros(2), np.zeros(3))
     with pytest.raises(ValueError, match="not finite"):
         paired_mean_difference(np.zeros(2), np.array([0.0, np.nan]))
+
+
+@pytest.mark.parametrize(("count", "tolerance"), [(3, 1e-12), (12, 1e-12), (40, 0.01)])
+def test_turning_signs_agrees_with_scipy(count: int, tolerance: float) -> None:
+    rng = np.random.default_rng(count)
+    first = rng.normal(5.0, 2.0, count)
+    second = first + rng.normal(0.3, 1.0, count)
+    theirs = permutation_test(
+        (second - first,), np.mean, permutation_type="samples", n_resamples=9999, rng=np.random.default_rng(1)
+    )
+    assert sign_flip_probability(first, second) == pytest.approx(theirs.pvalue, abs=tolerance)
+
+
+def test_few_pairs_that_differ_cannot_be_sure_however_alike_they_are() -> None:
+    """A Student interval over a hundred pairs of which five differ would be."""
+    first, second = np.zeros(100), np.zeros(100)
+    second[:5] = [1.0, 1.0, 0.5, 0.5, 0.5]
+    assert paired_mean_difference(first, second).lower > 0.0
+    assert sign_flip_probability(first, second) == pytest.approx(2 / 2**5)
+    assert sign_flip_probability(first, first) == 1.0
+
+
+def test_correction_of_holm_1979() -> None:
+    """The smallest counts n times, the next n - 1 times, and none is smaller than one before it."""
+    adjusted = holm_adjusted(np.array([0.04, 0.01, 0.03, 0.9]))
+    assert adjusted.tolist() == pytest.approx([0.09, 0.04, 0.09, 0.9])

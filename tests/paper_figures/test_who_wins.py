@@ -1,8 +1,9 @@
 """Conditions of the comparison, not trials, are what intervals are made of."""
 
 import pandas as pd
+import pytest
 
-from paper_figures.comparison.who_wins import averaged
+from paper_figures.comparison.who_wins import MEASURES, averaged, better_of, row_of
 
 TABLE = pd.DataFrame(
     {
@@ -25,3 +26,46 @@ def test_trials_that_differ_in_the_other_factor_alone_count_once() -> None:
 def test_condition_in_which_a_value_is_missing_is_left_out() -> None:
     means, _ = averaged(TABLE, "planner", "error")
     assert means[means["seed"] == "1"]["planner"].to_list() == ["kinematic_sqp"]
+
+
+@pytest.mark.parametrize(
+    ("percent", "corrected", "larger_is_better", "better"),
+    [
+        (5.0, 0.01, True, "hierarchical"),
+        (5.0, 0.01, False, "weighted"),
+        (-5.0, 0.01, False, "hierarchical"),
+        (1.0, 0.001, False, None),  # sure, and too small to matter
+        (50.0, 0.06, False, None),  # large, and not sure
+    ],
+)
+def test_better_is_what_is_sure_and_large_enough(
+    percent: float, corrected: float, larger_is_better: bool, better: str | None
+) -> None:
+    row = pd.Series(
+        {
+            "factor": "controller",
+            "difference_percent": percent,
+            "corrected": corrected,
+            "larger_is_better": larger_is_better,
+        }
+    )
+    assert better_of(row) == better
+
+
+def test_difference_that_one_kind_of_condition_makes_alone_says_so() -> None:
+    completed = MEASURES[0]
+    levels = [(planner, controller) for planner in ("kinematic_sqp", "vertex_zmp") for controller in ("a", "b")]
+    trials = pd.DataFrame(
+        [
+            (disturbance, "walk", seed, planner, controller, float(disturbance == "none" or planner == "vertex_zmp"))
+            for disturbance in ("none", "low friction")
+            for seed in range(3)
+            for planner, controller in levels
+        ],
+        columns=["disturbance", "gait", "seed", "planner", "controller", completed.column],
+    )
+    row = row_of("planner", completed.name, completed, trials)
+    assert row["only_in"] == "low friction, walk"
+    assert row["differing"] == 3
+    assert row["pairs"] == 6
+    assert row["probability"] == pytest.approx(0.25)
