@@ -115,9 +115,9 @@ def sign_flip_probability(first: Array, second: Array, resamples: int = 9999) ->
     """Return the two-sided probability of a mean difference of pairs as large as this if neither were larger.
 
     A permutation test (Fisher 1935, "The design of experiments"): if neither is larger, each pair could as well be the
-    other way round. It assumes independent pairs and no distribution; five pairs never give less than 1/16. Pairs that are equal count
-    for neither. All ways to turn the pairs are tried where these are not more than ``resamples``, else so many at
-    random, the same in every call.
+    other way round. It assumes independent pairs and no distribution; five pairs never give less than 1/16. Pairs that
+    are equal count for neither. All ways to turn the pairs are tried where these are not more than ``resamples``, else
+    so many at random, the same in every call.
 
     Args:
         first, second: (n,) values of the same n conditions; both finite.
