@@ -73,5 +73,5 @@ def _tracking(name: str, rows: pd.DataFrame, plan: MotionPlan) -> Claim:
     holds = abs(worst) <= DISTANCE and height <= HEIGHT_MM and tilt <= TILT_DEG and not at_limit
     ours = f"{100 * worst:+.1f} %, {height:.2g} mm, {tilt:.2g} deg rms, {torque:.0f} N m{', the limit' * at_limit}"
     text = f"10 s of trot with {name}: distance, base height, roll and pitch, torque"
-    why = "" if holds else "More than is aimed at here."
+    why = "" if holds else f"Aimed at here: {100 * DISTANCE:g} %, {HEIGHT_MM:g} mm, {TILT_DEG:g} deg, below the limit."
     return Claim(text, "not printed", f"{ours}, worst of {len(rows)}", Verdict.NEW, why)

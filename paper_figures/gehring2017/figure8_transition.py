@@ -15,8 +15,8 @@ from quadlab.studies.config import load_study
 STUDY = "gehring2017_transition"
 CAPTION = (
     "From a walk of 4 s to two strides of a trot of 0.8 s; our priorities, estimator ekf, seed 0, nominal start. "
-    "Seen from the right. Above each picture its time and which legs are at the apex of their swing or touch down, "
-    "by plan."
+    "Seen from the right and somewhat from ahead. Above each picture its time and which legs are at the apex of "
+    "their swing or touch down, by plan."
 )
 ARTEFACT = Artefact("G-F8", "Gehring 2017, Fig. 8", "Transition from walk to trot", (STUDY,), CAPTION)
 COLUMNS = 4
