@@ -12,6 +12,7 @@ from paper_figures.push_limits import PUSH_S, limit_claims
 from paper_figures.trial_claims import paper_stack, survival, variant_claims
 from quadlab.analysis.artefact import Artefact, Claim, Verdict, verdict
 from quadlab.analysis.study_results import StudyResults
+from quadlab.gaits.schedule import ContactSchedule
 from quadlab.geometry.rotations import Array
 from quadlab.plotting.intervals import Interval
 from quadlab.plotting.style import COLUMN_WIDTH, MEASURED, NEUTRAL, PUSH, REFERENCE, paper_style
@@ -99,7 +100,7 @@ def claims(results: StudyResults) -> list[Claim]:
     """Return that it stays up, keeps turning, what holds it up, and the largest pushes of a trot."""
     table, curves = results.table(STUDY), numbers(results)
     reference = table[table["variant"] == "reference"]
-    swings = results.plan(STUDY, "not_pushed").schedule.swings[0]
+    schedule = results.plan(STUDY, "not_pushed").schedule
     trials = {str(name): rows.set_index("time_s") for name, rows in curves.groupby("trial")}
     return [
         *(
@@ -107,16 +108,22 @@ def claims(results: StudyResults) -> list[Claim]:
             for name, rows in reference.groupby("estimator")
         ),
         paper_stack(table, STAYS_UP, "stays up under two pushes of 0.7 m/s"),
-        turned(trials, len(swings)),
+        turned(trials, len(schedule.swings[0])),
         yaw_change(trials),
         _tracking(trials),
         deviation(trials),
-        settling(trials, Interval(swings[-1].end_s - (swings[1].start_s - swings[0].start_s), swings[-1].end_s)),
+        settling(trials, last_stride(schedule)),
         *variant_claims(table),
         *limit_claims(
             known_limits(results, LIMITS), results.table(LIMITS), NEEDED_MPS, f"trot straight on, {PUSH_S} s, ekf"
         ),
     ]
+
+
+def last_stride(schedule: ContactSchedule) -> Interval:
+    """Return the stride that ends when the last leg lands for good."""
+    last = max((legs[-2:] for legs in schedule.swings), key=lambda swings: swings[-1].end_s)
+    return Interval(last[0].end_s, last[1].end_s)
 
 
 def turned(trials: Trials, strides: int) -> Claim:

@@ -4,8 +4,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from paper_figures.gehring2017.figure7_turning_trot import PAIRS, PUSHED, deviation, settling, turned, yaw_change
+from paper_figures.gehring2017.figure7_turning_trot import (
+    PAIRS,
+    PUSHED,
+    deviation,
+    last_stride,
+    settling,
+    turned,
+    yaw_change,
+)
 from quadlab.analysis.artefact import Verdict
+from quadlab.gaits.schedule import ContactSchedule
 from quadlab.plotting.intervals import Interval
 
 TIMES = np.arange(0, 800) / 100.0
@@ -43,6 +52,13 @@ def test_pushes_do_not_show_in_yaw(bump_deg: float, verdict: Verdict) -> None:
 @pytest.mark.parametrize(("end_m", "verdict"), [(0.5, Verdict.REPRODUCED), (0.01, Verdict.NOT)])
 def test_pushes_show_in_the_path(end_m: float, verdict: Verdict) -> None:
     assert deviation(_trials(160.0, end_m=end_m)).verdict is verdict
+
+
+def test_last_stride_ends_with_the_last_touch_down() -> None:
+    stand, diagonal = np.ones(4, dtype=bool), np.array([True, False, False, True])
+    phases = np.array([stand, *(stand, ~diagonal, stand, diagonal) * 2, stand])
+    schedule = ContactSchedule(np.full(len(phases), 0.2), phases)
+    assert last_stride(schedule) == pytest.approx((1.0, 1.8))
 
 
 @pytest.mark.parametrize(("drift_mps", "verdict"), [(0.0, Verdict.REPRODUCED), (0.5, Verdict.NOT)])
