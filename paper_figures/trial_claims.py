@@ -6,12 +6,17 @@ from quadlab.analysis.artefact import Claim, Verdict, verdict
 from quadlab.studies.report import success_share
 
 COMPLETED = "completed"
+STACKS = {"hierarchical": "our priorities", "gehring2017": "the priorities of the paper"}
+"""The controllers that the trials of Gehring 2017 are run with."""
 PAPER_STACK = "stack of the paper"
 """Level of the factor ``variant`` whose controller has the priorities that the paper prints."""
 PAPER_STACK_WHY = (
     "Neither the gains of the drives that move the paper's swing legs nor the size of the disturbance are printed; the "
     "preset has a joint PD in their place. Why it falls was not isolated."
 )
+FEWEST_TRIALS = 5
+"""From that many trials on a success of the paper counts as reproduced."""
+TOO_FEW = f"Fewer than {FEWEST_TRIALS} trials say little."
 SILENT = ("-", "not printed", "not measured")
 """What stands in place of the paper's value where it has none."""
 VARIANTS = {
@@ -41,10 +46,15 @@ def share(rows: pd.DataFrame) -> str:
 
 
 def survival(text: str, rows: pd.DataFrame, paper: str, needed: int | None = None, why: str = "") -> Claim:
-    """Return the claim that ``needed`` of ``rows``, all if not given, stay up; ``why`` is said where they do not."""
+    """Return the claim that ``needed`` of ``rows``, all if not given, stay up; ``why`` is said where they do not.
+
+    Fewer than ``FEWEST_TRIALS`` reproduce nothing.
+    """
     good = len(completed(rows))
-    holds = good >= (len(rows) if needed is None else needed)
-    return Claim(text, paper, share(rows), judged(paper, holds=holds, partly=good > 0), "" if holds else why)
+    holds, enough = good >= (len(rows) if needed is None else needed), len(rows) >= FEWEST_TRIALS
+    found = judged(paper, holds=holds and enough, partly=good > 0)
+    few = "" if enough or found is Verdict.NEW else TOO_FEW
+    return Claim(text, paper, share(rows), found, " ".join(filter(None, ["" if holds else why, few])))
 
 
 def paper_stack(rows: pd.DataFrame, paper: str, what: str = "stays up") -> Claim:

@@ -4,7 +4,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from paper_figures.gehring2017.table1_objectives import shipped_config
-from paper_figures.trial_claims import completed, survival
+from paper_figures.trial_claims import STACKS, completed, survival
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.planners.plan import MotionPlan
@@ -16,13 +16,14 @@ STUDY, PLAN = "gehring2017_trot", "gehring2017_trot_plan"
 CAPTION = (
     "The plan of the kinematic planner for two cycles of a trot, 0.8 s each, with 0.6 s of standing before and "
     "after. Squares on the ground: initial stance; circles: footholds; arcs: swings, as high as the clearance of "
-    "the planner (7 cm, not printed in the paper). Thick line: CoM in the colour of the leg that swings; black "
-    "squares: base, with lines to the feet that stand. Dots: CoP."
+    "the planner (7 cm, not printed in the paper). Thick line: CoM in the colour of the first of the two legs that "
+    "swing, grey while all stand; black squares: base, with lines to the feet that stand. Thin lines on the ground: "
+    "supports, in the same colours. Dots: CoP."
 )
 ARTEFACT = Artefact("G-F1", "Gehring 2017, Fig. 1", "A trot plan in space", (PLAN, STUDY), CAPTION)
-SPEED = 0.03
-"""Share by which the speed may be off."""
-HEIGHT_MM, TILT_DEG, TORQUE_NM = 3.0, 0.7, 40.0
+DISTANCE = 0.03
+"""Share by which the distance may be off."""
+HEIGHT_MM, TILT_DEG = 3.0, 0.7
 
 
 @paper_style()
@@ -43,29 +44,34 @@ def numbers(results: StudyResults) -> pd.DataFrame:
 
 
 def claims(results: StudyResults) -> list[Claim]:
-    """Return that the checker accepts the plan, and how the robot trots it for 10 s."""
+    """Return that the checker accepts the plan, and how the robot trots it for 10 s with either controller.
+
+    With the true state nothing is random: that trial stands beside those with the noise of sensors.
+    """
     plan = results.plan(STUDY, "trot")
     table = results.table(STUDY)
-    rows = completed(table[table["controller"] == "hierarchical"])
-    stacks = {"hierarchical": "our priorities", "gehring2017": "the priorities of the paper"}
     falls = [
-        survival(f"trots 10 s with {stacks[str(stack)]}, {estimator}", group, "moves forward")
-        for (stack, estimator), group in table.groupby(["controller", "estimator"], sort=False)
+        survival(f"trots 10 s with {text}, ekf and truth", table[table["controller"] == stack], "moves forward")
+        for stack, text in STACKS.items()
     ]
     drawn = results.plan(PLAN, "trot").verdict
     text = "the plan passes the independent checker"
     checked = Claim(text, "-", ", ".join(drawn.violated) or "passes", Verdict.NEW)
-    return [checked, *falls, *(_tracking(str(name), group, plan) for name, group in rows.groupby("estimator"))]
+    groups = completed(table).groupby(["controller", "estimator"], sort=False)
+    tracked = [_tracking(f"{STACKS[str(stack)]}, {estimator}", rows, plan) for (stack, estimator), rows in groups]
+    return [checked, *falls, *tracked]
 
 
-def _tracking(estimator: str, rows: pd.DataFrame, plan: MotionPlan) -> Claim:
+def _tracking(name: str, rows: pd.DataFrame, plan: MotionPlan) -> Claim:
     planned = float(plan.com(plan.duration_s)[0] - plan.com(0.0)[0])
-    speed = float((rows["distance_m"] / planned - 1.0).abs().max())
+    off = rows["distance_m"] / planned - 1.0
+    worst = float(off.iloc[int(off.abs().argmax())])
     height, tilt, torque = (
         float(rows[column].max()) for column in ("base_height_rms_mm", "roll_pitch_rms_deg", "torque_max_nm")
     )
-    holds = speed <= SPEED and height <= HEIGHT_MM and tilt <= TILT_DEG and torque <= TORQUE_NM
-    ours = f"{100 * speed:.1f} % off, {height:.2g} mm, {tilt:.2g} deg rms, {torque:.0f} N m, worst of {len(rows)}"
-    text = f"10 s of trot, {estimator}: distance, base height, roll and pitch, torque"
-    why = "" if holds else "More than is aimed at here."
-    return Claim(text, "not printed", ours, Verdict.NEW, why)
+    at_limit = float(rows["torque_limit_share"].max()) > 0.0
+    holds = abs(worst) <= DISTANCE and height <= HEIGHT_MM and tilt <= TILT_DEG and not at_limit
+    ours = f"{100 * worst:+.1f} %, {height:.2g} mm, {tilt:.2g} deg rms, {torque:.0f} N m{', the limit' * at_limit}"
+    text = f"10 s of trot with {name}: distance, base height, roll and pitch, torque"
+    why = "" if holds else f"Aimed at here: {100 * DISTANCE:g} %, {HEIGHT_MM:g} mm, {TILT_DEG:g} deg, below the limit."
+    return Claim(text, "not printed", f"{ours}, worst of {len(rows)}", Verdict.NEW, why)

@@ -16,15 +16,16 @@ from quadlab.controllers.tracking.alignment import (
 )
 from quadlab.geometry.rotations import Array, wrap_angle
 from quadlab.planners.plan import MotionPlan
-from quadlab.plotting.style import MEASURED, NEUTRAL, SERIES, TEXT_WIDTH, paper_style
+from quadlab.plotting.style import MEASURED, NEUTRAL, REFERENCE, SERIES, TEXT_WIDTH, paper_style
 from quadlab.robots.legs import LEGS
 
 STUDY = "gehring2017_walk_push"
 CAPTION = (
     "A walk 0.25 s after a push to the right of 160 N for 0.15 s (0.79 m/s); estimator ekf, seed 1, perturbed "
-    "start. Open circles and plus: measured feet and CoM. Dots and crosses: feet and CoM of the plan, coloured by "
-    "the way it is laid: as it was made (grey), upon position and yaw of the base (orange), upon the feet "
-    "(green); mixed: feet of the plan base-centred, CoM feet-centred, as the controller does."
+    "start. Dashed with open circles, open plus: measured feet and CoM. Solid with dots, cross: feet and CoM of the "
+    "plan, coloured by the way it is laid: as it was made (grey), upon position of the CoM and yaw of the base "
+    "(orange), upon the feet (green). Mixed, as the controller does: feet of the plan base-centred; the cross is the "
+    "controller's reference of the CoM (blue), which is feet-centred and filtered."
 )
 ARTEFACT = Artefact(
     "G-F2", "Gehring 2017, Fig. 2", "Alignment of a plan with a robot that was pushed", (STUDY,), CAPTION
@@ -32,7 +33,9 @@ ARTEFACT = Artefact(
 DRAWN = "drawing, no measurement"
 BY_DEFINITION = "That is how this alignment is defined; the picture is what is new."
 AFTER_PUSH_S = 0.25
-"""Time of the picture after the end of the push."""
+"""Time of the picture after the end of the push in [s]."""
+AROUND = [LEGS.index(leg) for leg in ("LF", "RF", "RH", "LH", "LF")]
+"""Feet in the order in which a line goes round them."""
 
 
 @dataclass(frozen=True)
@@ -42,45 +45,51 @@ class Moment:
     Attributes:
         com, feet: measured in the world, (2,) and (4, 2) in [m].
         yaw: heading of the base in the world in [rad].
+        reference: what the controller wants the CoM to be at, in the world, (2,) in [m].
         planned_com, planned_feet, planned_yaw: in the plan frame.
     """
 
     com: Array
     feet: Array
     yaw: float
+    reference: Array
     planned_com: Array
     planned_feet: Array
     planned_yaw: float
 
     def alignments(self) -> dict[str, PlanarPose]:
-        """Return the ways to lay the plan; the mixed one takes the torso feet-centred, swing feet base-centred."""
+        """Return the ways to lay the plan, of which the controller mixes the last two."""
         feet = feet_alignment(self.planned_feet, self.feet)
         base = base_alignment(self.planned_com, self.planned_yaw, self.com, self.yaw)
         return {"unaligned": identity_alignment(), "base-centred": base, "feet-centred": feet}
+
+    def laid(self) -> dict[str, tuple[Array, Array]]:
+        """Return the CoM, (2,), and the feet, (4, 2), of the plan in the world in [m], by way of alignment."""
+        laid = {
+            name: (pose.position(self.planned_com), np.array([pose.position(foot) for foot in self.planned_feet]))
+            for name, pose in self.alignments().items()
+        }
+        return {**laid, "mixed": (self.reference, laid["base-centred"][1])}
 
 
 @paper_style()
 def draw(results: StudyResults) -> Figure:
     """Return one panel a way of alignment: measured feet and CoM in black, the plan in the colour of how it is laid."""
     now = moment(results)
-    figure = Figure(figsize=(TEXT_WIDTH, 2.0), layout="constrained")
-    ways = now.alignments()
-    panels = figure.subplots(1, len(ways) + 1, sharex=True, sharey=True)
-    colours = dict(zip(ways, (NEUTRAL, *SERIES[2:]), strict=True))
-    for axes, name in zip(panels, [*ways, "mixed"], strict=True):
-        torso, swing = ("feet-centred", "base-centred") if name == "mixed" else (name, name)
-        feet = np.array([ways[swing].position(foot) for foot in now.planned_feet])
-        axes.plot(*now.feet.T, "o", color=MEASURED, markersize=5.0, fillstyle="none", label="measured foot")
-        axes.plot(*now.com, "P", color=MEASURED, markersize=5.0, label="measured CoM")
-        axes.plot(*feet.T, "o", color=colours[swing], markersize=2.5, label="planned foot")
-        axes.plot(
-            *ways[torso].position(now.planned_com), "X", color=colours[torso], markersize=5.0, label="planned CoM"
-        )
+    figure = Figure(figsize=(TEXT_WIDTH, 1.75), layout="constrained")
+    laid = now.laid()
+    panels = figure.subplots(1, len(laid), sharex=True, sharey=True)
+    colours = ((NEUTRAL, NEUTRAL), (SERIES[2], SERIES[2]), (SERIES[3], SERIES[3]), (REFERENCE, SERIES[2]))
+    for axes, (name, (com, feet)), (for_com, for_feet) in zip(panels, laid.items(), colours, strict=True):
+        axes.plot(*now.feet[AROUND].T, "o--", color=MEASURED, ms=5.0, mfc="none", label="measured feet")
+        axes.plot(*feet[AROUND].T, "o-", color=for_feet, ms=2.5, label="planned feet")
+        axes.plot(*com, "X", ls="", color=for_com, ms=6.0, mew=0.0, label="planned CoM")
+        axes.plot(*now.com, "P", ls="", color=MEASURED, ms=6.0, mfc="none", mew=0.8, label="measured CoM")
         axes.set_title(name, loc="left")
         axes.set(xlabel="x [m]", aspect="equal")
     panels[0].set_ylabel("y [m]")
     handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4)
+    figure.legend(handles, labels, loc="outside upper center", ncols=4)
     return figure
 
 
@@ -91,10 +100,10 @@ def moment(results: StudyResults) -> Moment:
     time_s = float(pushed[-1]) + AFTER_PUSH_S
     row = trace.iloc[int(np.argmin(np.abs(trace.index - time_s)))]
     feet = np.array([[row[f"control.foot_position_{leg}_{axis}"] for axis in "xy"] for leg in LEGS])
-    com = np.array([row["control.com_x"], row["control.com_y"]])
+    com, reference = (np.array([row[f"control.{key}_{axis}"] for axis in "xy"]) for key in ("com", "com_reference"))
     planned = plan.at(time_s)
     yaw = float(row["control.base_yaw"])
-    return Moment(com, feet, yaw, planned.com_position[:2], planned_feet(plan, time_s), planned.yaw)
+    return Moment(com, feet, yaw, reference, planned.com_position[:2], planned_feet(plan, time_s), planned.yaw)
 
 
 def planned_feet(plan: MotionPlan, time_s: float) -> Array:
@@ -104,16 +113,15 @@ def planned_feet(plan: MotionPlan, time_s: float) -> Array:
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:
-    """Return how far CoM, feet and yaw of the plan are from the robot's, by way of alignment."""
+    """Return how far CoM and feet of the plan are from the robot's, and its yaw if it has one, by alignment."""
     now = moment(results)
+    ways = now.alignments()
     rows = []
-    for name, pose in now.alignments().items():
-        com = np.linalg.norm(pose.position(now.planned_com) - now.com)
-        feet = np.linalg.norm(
-            np.mean([pose.position(foot) for foot in now.planned_feet], axis=0) - now.feet.mean(axis=0)
-        )
-        yaw = np.degrees(wrap_angle(pose.yaw + now.planned_yaw - now.yaw))
-        rows.append((name, 1e3 * com, 1e3 * feet, yaw))
+    for name, (com, feet) in now.laid().items():
+        com_off = np.linalg.norm(com - now.com)
+        feet_off = np.linalg.norm(feet.mean(axis=0) - now.feet.mean(axis=0))
+        yaw = np.degrees(wrap_angle(ways[name].yaw + now.planned_yaw - now.yaw)) if name in ways else None
+        rows.append((name, 1e3 * com_off, 1e3 * feet_off, yaw))
     return pd.DataFrame(rows, columns=["alignment", "com_off_mm", "mean_foot_off_mm", "yaw_off_deg"])
 
 
@@ -124,7 +132,7 @@ def claims(results: StudyResults) -> list[Claim]:
     off = float(table["com_off_mm"].loc["unaligned"])
     return [
         Claim(
-            "base-centred: planned and measured base coincide",
+            "base-centred: planned and measured CoM coincide",
             DRAWN,
             f"{base:.2g} mm apart, {off:.0f} mm unaligned",
             Verdict.NEW,

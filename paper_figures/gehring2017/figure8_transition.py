@@ -5,7 +5,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
-from paper_figures.trial_claims import at_most, survival
+from paper_figures.trial_claims import STACKS, at_most, survival
 from quadlab.analysis.artefact import Artefact, Claim
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.style import TEXT_WIDTH, paper_style
@@ -15,7 +15,8 @@ from quadlab.studies.config import load_study
 STUDY = "gehring2017_transition"
 CAPTION = (
     "From a walk of 4 s to two strides of a trot of 0.8 s; our priorities, estimator ekf, seed 0, nominal start. "
-    "Above each picture its time and which legs are at the apex of their swing or touch down, by plan."
+    "Seen from the right and somewhat from ahead. Above each picture its time and which legs are at the apex of "
+    "their swing or touch down, by plan."
 )
 ARTEFACT = Artefact("G-F8", "Gehring 2017, Fig. 8", "Transition from walk to trot", (STUDY,), CAPTION)
 COLUMNS = 4
@@ -31,10 +32,11 @@ def draw(results: StudyResults) -> Figure:
     times, trace = snapshot_times(), results.trace(STUDY, "transition")
     rows = -(-len(pictures) // COLUMNS)
     figure = Figure(figsize=(TEXT_WIDTH, 1.35 * rows), layout="constrained")
-    for axes in figure.subplots(rows, COLUMNS, squeeze=False).flat:
+    panels = figure.subplots(rows, COLUMNS, squeeze=False).flatten()
+    for axes in panels:
         axes.set_axis_off()
-    for number, (axes, path, time_s) in enumerate(zip(figure.axes, pictures, times, strict=False), 1):
-        picture = imread(path)
+    for number, (path, time_s) in enumerate(zip(pictures, times, strict=True), 1):
+        axes, picture = panels[number - 1], imread(path)
         height, width = picture.shape[:2]
         axes.imshow(picture[int(0.15 * height) : int(0.8 * height), int(0.2 * width) : int(0.9 * width)])
         axes.set_title(f"{number}: {time_s:.6g} s, {moment(trace, time_s)}", fontsize=6.5)
@@ -66,15 +68,27 @@ def numbers(results: StudyResults) -> pd.DataFrame:
 
 
 def claims(results: StudyResults) -> list[Claim]:
-    """Return that it stays up and how closely it follows, with our gains and with the priorities of the paper."""
+    """Return that it stays up and how closely it follows, with our priorities and with those of the paper.
+
+    With the true state nothing is random: that trial stands beside those with the noise of sensors.
+    """
     table = results.table(STUDY)
-    ours, printed = (table[table["controller"] == name] for name in ("hierarchical", "gehring2017"))
-    paper = "stays up"
+    column, above = "com_error_max_mm", f"More than the {COM_BOUND_MM:g} mm aimed at here."
     return [
-        *(survival(f"stays up, {name}", rows, paper) for name, rows in ours.groupby("estimator")),
         *(
-            at_most(f"CoM error, {name}", rows, "com_error_max_mm", COM_BOUND_MM, "mm", paper="not printed")
-            for name, rows in ours.groupby("estimator")
+            survival(f"stays up with {text}, ekf and truth", table[table["controller"] == stack], "stays up")
+            for stack, text in STACKS.items()
         ),
-        survival("stays up with the priorities of the paper, ekf and truth", printed, paper),
+        *(
+            at_most(
+                f"CoM error with {STACKS[str(stack)]}, {estimator}",
+                rows,
+                column,
+                COM_BOUND_MM,
+                "mm",
+                paper="not printed",
+                why=above,
+            )
+            for (stack, estimator), rows in table.groupby(["controller", "estimator"], sort=False)
+        ),
     ]

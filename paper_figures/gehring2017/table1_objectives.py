@@ -44,8 +44,10 @@ WHY = {
 """Why costs differ, by motion; the paper prints the distance of the walk, 0.2 m a stride, which is also ours."""
 
 
-CLOSE = 3.0
-"""Costs that differ by less than that factor count as close."""
+EQUAL, CLOSE = 1.1, 3.0
+"""Costs that differ by less than these factors count as equal and as close."""
+DISTANCES = ("travel_distance_transition", "travel_distance_periodic")
+"""Objectives whose cost is the weighted square of how far a cycle misses its distance in [m]."""
 
 
 @paper_style()
@@ -85,10 +87,11 @@ def claims(results: StudyResults) -> list[Claim]:
     table = numbers(results)
     found = []
     for motion in MOTIONS:
-        ours, paper = table.loc[table["motion"] == motion, ["cost", "paper"]].sum()
-        similar = 0.1 < ours / paper < 10.0
+        rows = table[table["motion"] == motion]
+        ours, paper = rows[["cost", "paper"]].sum()
         text = f"{motion}: sum of the costs in Table I, without the regulariser"
-        found.append(Claim(text, f"{paper:.3g}", f"{ours:.3g}", verdict(holds=False, partly=similar), WHY[motion]))
+        judged = verdict(holds=within(ours / paper, EQUAL), partly=within(ours / paper, CLOSE))
+        found.append(Claim(text, f"{paper:.3g}", f"{ours:.3g}", judged, f"{largest_gap(rows)} {WHY[motion]}"))
     found += [_ratios(motion, table[table["motion"] == motion]) for motion in MOTIONS]
     used = shipped_weights()
     same = [name for name, (_, weight, _) in PRINTED.items() if used.get(name) == weight]
@@ -96,15 +99,30 @@ def claims(results: StudyResults) -> list[Claim]:
     return [*found, Claim(text, str(len(PRINTED)), str(len(same)), verdict(holds=len(same) == len(PRINTED)))]
 
 
+def within(ratio: float, factor: float) -> bool:
+    """Whether two numbers of that ratio differ by less than ``factor``."""
+    return 1.0 / factor < ratio < factor
+
+
+def largest_gap(rows: pd.DataFrame) -> str:
+    """Return of which objective the costs of a motion are farthest apart, as a sentence."""
+    worst = rows.iloc[int((rows["cost"] - rows["paper"]).abs().argmax())]
+    costs = f"{PRINTED[str(worst['objective'])][0].lower()}, {worst['paper']:.4g} printed, {worst['cost']:.2g} here"
+    if worst["objective"] not in DISTANCES:
+        return f"Farthest apart: {costs}."
+    paper_mm, ours_mm = (1e3 * float(worst[key] / worst["weight"]) ** 0.5 for key in ("paper", "cost"))
+    return f"Farthest apart: {costs}; the cycle misses its distance by {paper_mm:.0f} mm there, {ours_mm:.0f} mm here."
+
+
 def _ratios(motion: str, rows: pd.DataFrame) -> Claim:
     """Return the smallest and largest ratio of our costs to the printed ones, and how many are close."""
     printed = rows[rows["paper"] > 0.0].set_index("objective")
     ratio = printed["cost"] / printed["paper"]
-    close = int(ratio.between(1.0 / CLOSE, CLOSE).sum())
+    close = sum(within(value, CLOSE) for value in ratio)
     names = (str(ratio.idxmin()), str(ratio.idxmax()))
     ends = (f"{float(ratio[name]):.2g} ({PRINTED[name][0].lower()})" for name in names)
     ours = f"{' to '.join(ends)}, {close} of {len(ratio)} within a factor of {CLOSE:g}"
-    found = verdict(holds=close == len(ratio), partly=close > 0)
+    found = verdict(holds=close == len(ratio), partly=2 * close >= len(ratio))
     return Claim(f"{motion}: cost here / cost in the paper, by objective", "1", ours, found, WHY[motion])
 
 

@@ -15,12 +15,21 @@ from quadlab.errors import ConfigurationError
 from quadlab.planners.plan_io import save_plan
 from quadlab.plotting.trial_video import recorded_motion
 from quadlab.robots.model import load_robot
-from quadlab.simulation.rendering.config import RenderConfig
+from quadlab.simulation.rendering.config import RenderConfig, ViewConfig
 from quadlab.simulation.rendering.renderer import render_frames
 from quadlab.simulation.rendering.strip import write_png
 from quadlab.studies.config import TraceConfig
 from quadlab.studies.files import StudyFolder
 from quadlab.trials.problems import suggestion
+
+SNAPSHOT = RenderConfig(
+    width=480,
+    height=360,
+    show_foot_forces=False,
+    show_com_reference=False,
+    view=ViewConfig(azimuth_deg=-65.0, elevation_deg=10.0),
+)
+"""Pictures show nothing but robot and ground, from where no leg hides another for long."""
 
 
 def write_trace(trace: TraceConfig, folder: StudyFolder, directory: Path) -> None:
@@ -66,8 +75,6 @@ def matches_any(name: str, patterns: Iterable[str]) -> bool:
 def _write_snapshots(log: TrialLog, trace: TraceConfig, folder: StudyFolder) -> None:
     config = logged_config(log)
     times_s = np.array(trace.snapshots_s)
-    frames = render_frames(
-        load_robot(config.robot), config.scenario, recorded_motion(log), times_s, RenderConfig(width=480, height=360)
-    )
+    frames = render_frames(load_robot(config.robot), config.scenario, recorded_motion(log), times_s, SNAPSHOT)
     for number, frame in enumerate(frames):
         write_png(frame, folder.snapshot(trace.name, number))
