@@ -25,6 +25,7 @@ class EstimationMetrics:
     _true_states: list[Array] = field(default_factory=list)
     _believed_states: list[Array] = field(default_factory=list)
     _believed_com_errors: list[Array] = field(default_factory=list)
+    _believed_height_errors: list[float] = field(default_factory=list)
     _updates_us: list[float] = field(default_factory=list)
     _innovation_squared: float = 0.0
     _innovation_size: int = 0
@@ -43,6 +44,8 @@ class EstimationMetrics:
         self._true_states.append(_base_of(true_state))
         self._believed_states.append(_base_of(estimate.state))
         self._believed_com_errors.append(telemetry.com_position - telemetry.com_position_reference)
+        believed_height = float(estimate.state.position_base_in_world[2])
+        self._believed_height_errors.append(believed_height - telemetry.base_height_reference)
         self._updates_us.append(estimate.report.update_us)
         self._innovation_squared += estimate.report.innovation_squared
         self._innovation_size += estimate.report.innovation_size
@@ -63,6 +66,7 @@ class EstimationMetrics:
         return {
             "com_error_believed_rms_mm": 1e3 * _rms(com_errors),
             "com_error_believed_max_mm": 1e3 * float(com_errors.max()),
+            "base_height_believed_rms_mm": 1e3 * _rms(np.array(self._believed_height_errors)),
             "estimate_position_drift_mm": 1e3 * math.dist(believed[-1, :3], true[-1, :3]),
             "estimate_yaw_drift_deg": abs(float(turns[-1, 2])),
             "estimate_roll_pitch_rms_deg": _rms(tilts),

@@ -44,7 +44,7 @@ class TrialResult(StrictModel):
         mean_speed_mps: distance over survived time in [m/s].
         com_error_rms_mm, com_error_max_mm: horizontal distance of the true CoM from its aligned reference, in [mm]; if
             the state is estimated, its drift included.
-        base_height_rms_mm: error of the base height, in [mm].
+        base_height_rms_mm: error of the true base height, in [mm]; if the state is estimated, its drift included.
         roll_pitch_rms_deg: error of roll and pitch together, in [deg].
         foot_slip_max_mm: farthest that a standing foot slid in one stance, in [mm].
         torque_max_nm: largest joint torque in [N m].
@@ -60,6 +60,8 @@ class TrialResult(StrictModel):
         control_fallbacks: ticks in which the controller's solver failed and the fallback was used.
         com_error_believed_rms_mm, com_error_believed_max_mm: the CoM error that the controller believed in, in [mm];
             like all that follow to ``estimate_update_median_us`` null if it was given the truth.
+        base_height_believed_rms_mm: error of the base height that the controller believed in, in [mm]: that of the height
+            over the ground under the feet, whose height in the world it cannot know.
         estimate_position_drift_mm, estimate_yaw_drift_deg: of the estimate at the end, in [mm] and [deg]; position and
             heading cannot be observed.
         estimate_roll_pitch_rms_deg, estimate_roll_pitch_max_deg: error of estimated roll and pitch together, in [deg].
@@ -106,6 +108,7 @@ class TrialResult(StrictModel):
     control_fallbacks: int | None = None
     com_error_believed_rms_mm: NonNegative | None = None
     com_error_believed_max_mm: NonNegative | None = None
+    base_height_believed_rms_mm: NonNegative | None = None
     estimate_position_drift_mm: NonNegative | None = None
     estimate_yaw_drift_deg: NonNegative | None = None
     estimate_roll_pitch_rms_deg: NonNegative | None = None

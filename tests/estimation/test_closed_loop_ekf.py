@@ -52,6 +52,14 @@ def test_log_holds_estimate_beside_truth(long_trot: tuple[Path, TrialResult]) ->
     assert vectors(log.estimate, "gyro_bias").shape == (len(log.state), 3)
 
 
+def test_height_that_is_believed_is_the_one_over_the_ground(long_trot: tuple[Path, TrialResult]) -> None:
+    """On level ground the true height says the same; the height in the world drifts."""
+    directory, result = long_trot
+    height = read_log(directory / LOG_FILE).state["base_position_z"]
+    over_ground_mm = 1e3 * float(np.sqrt(np.mean((height - height.iloc[0]) ** 2)))
+    assert value(result.base_height_believed_rms_mm) == pytest.approx(over_ground_mm, abs=0.5)
+
+
 def test_log_of_the_truth_has_no_estimate(tmp_path: Path) -> None:
     result = run_trial(compose_trial(["gait=stand", "command=in_place", "duration_s=1"]), tmp_path, SilentProgress())
     assert read_log(tmp_path / LOG_FILE).estimate.empty
