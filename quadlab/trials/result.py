@@ -60,8 +60,8 @@ class TrialResult(StrictModel):
         control_fallbacks: ticks in which the controller's solver failed and the fallback was used.
         com_error_believed_rms_mm, com_error_believed_max_mm: the CoM error that the controller believed in, in [mm];
             like all that follow to ``estimate_update_median_us`` null if it was given the truth.
-        base_height_believed_rms_mm: error of the base height that the controller believed in, in [mm]: that of the height
-            over the ground under the feet, whose height in the world it cannot know.
+        base_height_believed_rms_mm: error of the base height that the controller believed in, in [mm]: that of the
+            height over the ground under the feet, whose height in the world it cannot know.
         estimate_position_drift_mm, estimate_yaw_drift_deg: of the estimate at the end, in [mm] and [deg]; position and
             heading cannot be observed.
         estimate_roll_pitch_rms_deg, estimate_roll_pitch_max_deg: error of estimated roll and pitch together, in [deg].
