@@ -27,10 +27,9 @@ STUDY = "bellicoso2016_step_down"
 CAPTION = (
     "Walk, 0.25 m a stride, down a 14 cm step at x = 1 m with the priorities of the paper; estimator ekf, seed 0, "
     "nominal start. Left and pictures: with limb limits; right: without, until it falls at the end of the curves, "
-    "angles cut off there. Pictures: orange: reference of the CoM; blue arrows: contact forces, where they are drawn. "
-    "Curves: wide blue: desired; dashed: measured; dotted: limit of the height of a hip over its foot. Here LF "
-    "descends first, in the paper RF. Settings of this scenario: apex of the swing 0.19 of the standing height, search "
-    "begins at 0.8 of the swing with 0.5 m/s, the plan waits meanwhile, the desired torso stays level."
+    "curves cut off there. Wide blue: desired; dashed: measured; dotted: limit of the height of a hip over its foot. "
+    "Here LF descends first, in the paper RF. Settings of this scenario: apex of the swing 0.19 of the standing "
+    "height, search begins at 0.8 of the swing with 0.5 m/s, the plan waits meanwhile, the desired torso stays level."
 )
 ARTEFACT = Artefact("B-F56", "Bellicoso 2016, Fig. 5 and 6", "An unperceived step down of 14 cm", (STUDY,), CAPTION)
 TRACES = {"with limb limits": "with_limits", "without limb limits": "without_limits"}
