@@ -59,10 +59,17 @@ def draw(results: StudyResults) -> Figure:
     )
     table = numbers(results)
     rows = [
-        (name, f"{weight:.0e}", *(cell for motion in MOTIONS for cell in _cells(table, objective, motion)))
+        (name, _power(weight), *(cell for motion in MOTIONS for cell in _cells(table, objective, motion)))
         for objective, (name, weight, _) in PRINTED.items()
     ]
     return table_figure(TableText(header, tuple(rows)))
+
+
+def _power(weight: float) -> str:
+    """Return a weight as a power of ten."""
+    digit, exponent = f"{weight:.0e}".split("e")
+    power = f"$10^{{{int(exponent)}}}$"
+    return power if digit == "1" else rf"{digit} $\cdot$ {power}"
 
 
 def _cells(table: pd.DataFrame, objective: str, motion: str) -> tuple[str, str]:

@@ -12,17 +12,18 @@ from quadlab.geometry.rotations import Array, rotation_2d
 from quadlab.planners.plan import MotionPlan
 from quadlab.planners.sampling import turned_vertices
 from quadlab.planners.vertex_zmp.biped import RECTANGULAR_FOOT, biped_model
-from quadlab.plotting.style import COLUMN_WIDTH, COP, GROUND, LEG_COLOURS, MEASURED, NEUTRAL, paper_style
+from quadlab.plotting.style import COLUMN_WIDTH, COP, LEG_COLOURS, MEASURED, NEUTRAL, SERIES, paper_style
 
 STUDY = "winkler2017_table1"
 CAPTION = (
-    "Plan of a biped with rectangular feet from above. Outlines: feet in their stances; brown areas: support "
-    "while both feet stand; grey: range of motion of both feet at 0.7 s, where the dot is the CoM; red: CoP. "
+    "Plan of a biped with rectangular feet from above. Coloured outlines: feet in their stances; green areas: support "
+    "while both feet stand; grey: range of motion of both feet at 0.7 s, when the CoM is at the black dot; red: CoP. "
     "Nothing is simulated."
 )
 ARTEFACT = Artefact("W-F3", "Winkler 2017, Fig. 3", "A biped with feet that have an area", (STUDY,), CAPTION)
 FEET = ("left", "right")
 INSIDE_MM = 0.1
+ENFORCED = "Enforced by the planner, confirmed by the checker."
 SHOWN_S = 0.7
 """Time in [s], in the second double support, whose range of motion is drawn; a dot is the CoM then."""
 
@@ -31,14 +32,14 @@ SHOWN_S = 0.7
 def draw(results: StudyResults) -> Figure:
     """Return feet, the hulls of both feet in double support, CoM and CoP from above."""
     plan = results.plan(STUDY, "biped")
-    figure = Figure(figsize=(COLUMN_WIDTH, 2.95), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 2.8), layout="constrained")
     axes = figure.subplots()
     for number, corners in enumerate(double_supports(plan)):
         hull, label = corners[ConvexHull(corners).vertices], "" if number else "support on both feet"
-        axes.add_patch(Polygon(hull, facecolor=GROUND, alpha=0.25, edgecolor="none", label=label))
+        axes.add_patch(Polygon(hull, facecolor=SERIES[3], alpha=0.2, edgecolor="none", label=label))
     for foot in range(len(FEET)):
         box, label = reach_box(plan, foot, SHOWN_S), "" if foot else f"range of motion at {SHOWN_S:g} s"
-        axes.add_patch(Polygon(box, facecolor=NEUTRAL, alpha=0.25, edgecolor="none", label=label))
+        axes.add_patch(Polygon(box, facecolor=(NEUTRAL, 0.12), edgecolor=NEUTRAL, linewidth=0.7, label=label))
     for foot, (name, colour) in enumerate(zip(FEET, LEG_COLOURS, strict=False)):
         for number, corners in enumerate(foot_corners(plan, foot)):
             label = name if number == 0 else ""
@@ -48,7 +49,7 @@ def draw(results: StudyResults) -> Figure:
     axes.plot(*np.array([plan.cop(time) for time in times]).T, ".", color=COP, markersize=2.0, label="CoP")
     axes.plot(*plan.com(SHOWN_S)[:2], "o", color=MEASURED, markersize=4.0, label=f"CoM at {SHOWN_S:g} s")
     axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
-    figure.legend(loc="outside upper center", ncols=2)
+    figure.legend(loc="outside upper center", ncols=3)
     return figure
 
 
@@ -88,8 +89,8 @@ def numbers(results: StudyResults) -> pd.DataFrame:
 
 
 def claims(results: StudyResults) -> list[Claim]:
-    """Return that the CoP stays in the rotated feet and uses their area."""
+    """Return that the CoP stays in the rotated feet."""
     found = results.plan(STUDY, "biped").verdict
     outside = found.values["cop_outside_mm"]  # noqa: PD011 - no table
     text = "CoP inside the area of the standing feet: farthest outside [mm]"
-    return [Claim(text, "inside", f"{outside:.1g}", verdict(holds=outside < INSIDE_MM))]
+    return [Claim(text, "inside", f"{outside:.1g}", verdict(holds=outside < INSIDE_MM), ENFORCED)]

@@ -12,9 +12,9 @@ from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan
 from quadlab.planners.sampling import Samples, foot_path
-from quadlab.plotting.axes.plan_view import phase_colour, plan_view_legend
+from quadlab.plotting.axes.plan_view import COP_DOT, phase_colour, plan_view_legend
 from quadlab.plotting.placed_plan import in_plan_frame
-from quadlab.plotting.style import COP, LEG_COLOURS, MEASURED, TEXT_WIDTH, paper_style
+from quadlab.plotting.style import LEG_COLOURS, MEASURED, TEXT_WIDTH, paper_style
 from quadlab.robots.legs import LEG_COUNT
 
 _HEIGHT = 4.2  # [in]
@@ -46,7 +46,7 @@ def plan_space_figure(plan: MotionPlan, apex_m: float = _APEX) -> Figure:
     com = np.array([plan.com(time) for time in placed.times_s])
     for begin, end in _phases(placed.contacts):
         axes.plot(*com[begin : end + 1].T, color=phase_colour(placed.contacts[begin]), lw=1.8)
-    axes.plot(*placed.cop.T, 0.0, ls="", marker=".", ms=1.2, color=COP, mew=0)
+    axes.plot(*placed.cop.T, 0.0, **COP_DOT)
     _draw_legs(axes, plan)
     _frame(axes, np.concatenate([com, *plan.footholds]))
     handles = [*plan_view_legend(actual=False), *([Line2D([], [], **_HUB, label="base")] if plan.base else [])]

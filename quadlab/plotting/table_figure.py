@@ -1,7 +1,8 @@
-"""A table as a figure, in the look of printed papers: three rules, no vertical lines."""
+"""A table as a figure, in the look of printed papers: three rules and one below each group name, no vertical lines."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
@@ -23,7 +24,7 @@ class TableText:
     """What a table says.
 
     Attributes:
-        header: lines of column names; an empty name in the line above another one spans on from its left.
+        header: lines of names, the last one of the columns; those above name groups, which empty names continue.
         rows: lines of cells, each as long as the header.
         rules: numbers of the rows after which there is a thin rule.
         notes: lines below the table.
@@ -50,14 +51,13 @@ def table_figure(table: TableText, width_in: float = TEXT_WIDTH) -> Figure:
     edges = list(_edges(widths, spare))
     for number, line in enumerate(lines):
         y = height - _MARGIN - _ROW * (number + 0.5 + (0.2 if number >= len(table.header) else 0.0))
-        _draw_line(figure, line, edges, y, size, table.left)
+        draw_line = _draw_groups if number < len(table.header) - 1 else _draw_line
+        draw_line(figure, line, edges, y, size, table.left)
     for number, note in enumerate(table.notes):
         y = _MARGIN + _ROW * (note_lines - number - 0.6)
         figure.text(_MARGIN / width_in, y / height, note, fontsize=min(size, 6.5), va="center")
     for y, weight in _rule_heights(table, height):
-        figure.add_artist(
-            Line2D([_MARGIN / width_in, 1.0 - _MARGIN / width_in], [y / height] * 2, color=MEASURED, lw=weight)
-        )
+        _draw_rule(figure, (_MARGIN, width_in - _MARGIN), y, weight)
     return figure
 
 
@@ -91,6 +91,27 @@ def _draw_line(
     for number, (text, (begin, end)) in enumerate(zip(line, edges, strict=True)):
         x, side = (begin + (_GAP if number else 0.0), "left") if number < left else (end, "right")
         figure.text(x / width, y / height, text, ha=side, va="center", fontsize=size)
+
+
+def _draw_groups(
+    figure: Figure, line: Sequence[str], edges: Sequence[tuple[float, float]], y: float, size: float, left: int
+) -> None:
+    """Draw the names of groups of columns, each over the middle of a thin rule as wide as its group."""
+    width, height = figure.get_size_inches()
+    starts = [number for number, text in enumerate(line) if text]
+    for first, following in pairwise([*starts, len(line)]):
+        if following == first + 1:
+            alone = [text if number == first else "" for number, text in enumerate(line)]
+            _draw_line(figure, alone, edges, y, size, left)
+            continue
+        begin, end = edges[first][0] + _GAP, edges[following - 1][1]
+        figure.text(0.5 * (begin + end) / width, y / height, line[first], ha="center", va="center", fontsize=size)
+        _draw_rule(figure, (begin, end), y - 0.5 * _ROW, _THIN)
+
+
+def _draw_rule(figure: Figure, ends: tuple[float, float], y: float, weight: float) -> None:
+    width, height = figure.get_size_inches()
+    figure.add_artist(Line2D([end / width for end in ends], [y / height] * 2, color=MEASURED, lw=weight))
 
 
 def _rule_heights(table: TableText, height: float) -> Iterator[tuple[float, float]]:

@@ -90,6 +90,17 @@ def test_gaits_and_their_transitions(robot: str, gait_name: str, costs: dict[str
     assert motion.com(motion.duration_s)[0] == pytest.approx(MOTIONS[gait_name][1], abs=1e-6)
 
 
+@pytest.mark.parametrize(("first", "back_m"), [("LH", 0.2), ("RH", 0.2), ("LF", 0.0), ("RF", 0.0)])
+def test_even_loads_push_a_walk_back_that_begins_with_a_hind_leg(first: str, back_m: float) -> None:
+    """What the verdict on the walk of Winkler 2017, Fig. 5, says: three feet carry alike, so the CoP is off the CoM."""
+    phases = table_one_phases("walk")
+    begin = [leg for _, leg in phases].index(first)
+    problem = straight_problem(schedule_of((phases[begin:] + phases[:begin]) * 4), np.array([1.0, 0.0]))
+    walk = solved(plan(problem, **table_one_changes(TABLE_ONE[0], "fast")))
+    farthest = min(float(walk.com(time)[0]) for time in np.arange(0.0, walk.duration_s, 0.05))
+    assert -farthest == pytest.approx(back_m, abs=0.03)
+
+
 def test_lame_leg_carries_nothing() -> None:
     problem = motion_problem("anymal", "three_legs")
     lame = problem.schedule.contacts[1:-1, 0]

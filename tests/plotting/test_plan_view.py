@@ -41,6 +41,15 @@ def test_footholds_are_drawn_at_their_places_in_the_colours_of_their_legs(plan: 
         np.testing.assert_allclose(drawn, footholds[:, :2])
 
 
+def test_the_cop_lies_over_the_com_and_below_the_footholds(plan: MotionPlan) -> None:
+    axes = Figure().subplots()
+    draw_placed_plan(axes, in_plan_frame(plan))
+    (cop,) = [line for line in axes.lines if line.get_marker() == "."]
+    (com,) = axes.collections
+    feet = [line.get_zorder() for line in axes.lines if line.get_marker() in ("s", "o")]
+    assert com.get_zorder() < cop.get_zorder() < min(feet)
+
+
 def test_every_support_area_is_made_of_the_feet_that_stand(plan: MotionPlan) -> None:
     placed = in_plan_frame(plan)
     assert len(placed.supports) == len(plan.schedule.durations_s)

@@ -21,6 +21,9 @@ _MARGIN = 0.08  # [m] round what is drawn
 _AREA_ALPHA, _EDGE_ALPHA, _LINE_ALPHA = 0.05, 0.2, 0.45
 _FOOTHOLD: dict[str, Any] = {"ls": "", "marker": "o", "mfc": "w", "ms": 4.4, "mew": 0.9}
 _STANCE: dict[str, Any] = {"ls": "", "marker": "o", "ms": 2.3, "mew": 0.0}
+_COM_WIDTH = 1.8  # [pt]
+COP_DOT: dict[str, Any] = {"ls": "", "marker": ".", "ms": 2.6, "mew": 0.0, "color": COP}
+"""How samples of the CoP look."""
 
 
 def draw_placed_plan(axes: Axes, plan: PlacedPlan) -> None:
@@ -30,8 +33,8 @@ def draw_placed_plan(axes: Axes, plan: PlacedPlan) -> None:
     """
     for support in plan.supports:
         _draw_support(axes, support)
-    axes.plot(*plan.cop.T, ".", ms=1.6, color=COP, mew=0, zorder=3)
     draw_by_phase(axes, plan.com, plan.contacts)
+    axes.plot(*plan.cop.T, **COP_DOT, zorder=3.8)
     for colour, footholds in zip(LEG_COLOURS, plan.footholds, strict=True):
         axes.plot(*footholds[:1].T, **{**_FOOTHOLD, "marker": "s"}, color=colour, zorder=4)
         axes.plot(*footholds[1:].T, **_FOOTHOLD, color=colour, zorder=4)
@@ -56,8 +59,8 @@ def plan_view_legend(*, actual: bool) -> list[Artist]:
     rest = [
         Line2D([], [], **{**_FOOTHOLD, "marker": "s"}, color=NEUTRAL, label="initial stance"),
         Line2D([], [], **_FOOTHOLD, color=NEUTRAL, label="foothold"),
-        Line2D([], [], color=NEUTRAL, lw=1.6, label="CoM, coloured by swing"),
-        Line2D([], [], ls="", marker=".", ms=3, color=COP, label="CoP"),
+        Line2D([], [], color=NEUTRAL, lw=_COM_WIDTH, label="CoM, coloured by swing"),
+        Line2D([], [], **COP_DOT, label="CoP"),
     ]
     if actual:
         rest += [
@@ -100,7 +103,8 @@ def draw_by_phase(axes: Axes, points: Array, contacts: BoolArray) -> None:
     bounds = [0, *(np.flatnonzero(np.any(contacts[1:] != contacts[:-1], axis=1)) + 1).tolist(), len(points) - 1]
     pieces = [(points[begin : end + 1], contacts[begin]) for begin, end in pairwise(bounds)]
     colours = [phase_colour(flags) for _, flags in pieces]
-    axes.add_collection(LineCollection([piece for piece, _ in pieces], colors=colours, linewidths=1.8, zorder=3.5))
+    lines = LineCollection([piece for piece, _ in pieces], colors=colours, linewidths=_COM_WIDTH, zorder=3.5)
+    axes.add_collection(lines)
 
 
 def _draw_support(axes: Axes, support: SupportArea) -> None:
