@@ -44,7 +44,6 @@ def work_off(waiting: deque[PendingJob], workers: int, progress: StudyProgress) 
             study, condition, job = queue.handed_out[outcome.number]
             row = outcome.value if outcome.status is JobStatus.RETURNED else _failed(outcome)
             condition.take(job, row)
-            study.changed = True
             progress.finish(study.job_name(job), row)
             following = study.advance(condition, progress)
             if following is not None:
