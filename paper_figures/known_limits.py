@@ -1,18 +1,21 @@
 """Limits of a study, of which every one was found, and how they are told."""
 
+from collections.abc import Sequence
+
 import pandas as pd
 
 from quadlab.analysis.study_results import StudyResults
 from quadlab.errors import LogError
 
 
-def known_limits(results: StudyResults, study: str) -> pd.DataFrame:
+def known_limits(results: StudyResults, study: str, columns: Sequence[str] = ()) -> pd.DataFrame:
     """Return one row a search: its levels and the largest value survived, empty where even the smallest was not.
 
     Raises:
-        LogError: if the study has not been run, searches for nothing, or errors left some limits unknown.
+        LogError: if the study has not been run, searches for nothing, lacks one of ``columns``, or errors left some
+            limits unknown.
     """
-    limits = results.limits(study)
+    limits = results.limits(study, columns)
     unknown = int(limits["unknown"].notna().sum()) if "unknown" in limits else 0
     if unknown:
         raise LogError(

@@ -4,7 +4,7 @@ import os
 import sys
 from collections.abc import Callable
 
-from quadlab.errors import QuadlabError, os_error_line
+from quadlab.errors import PoolError, QuadlabError, os_error_line
 
 EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
@@ -24,6 +24,9 @@ def exit_code(command: Callable[[], int], interrupted: str = "interrupted") -> i
     except KeyboardInterrupt:
         complain(interrupted)
         return EXIT_INTERRUPTED
+    except PoolError as error:  # no mistake of whoever asked
+        complain(str(error))
+        return EXIT_FAILED
     except QuadlabError as error:
         complain(str(error))
         return EXIT_USAGE

@@ -86,7 +86,7 @@ def stacked(values: "pd.Series[float]") -> Array:
 
 def _limits(results: StudyResults, limit: Limit) -> pd.DataFrame:
     """Return the searches of one disturbance, their limits as ``value``, 0 where the smallest is too much already."""
-    limits = known_limits(results, STUDY)
+    limits = known_limits(results, STUDY, ["disturbance", "variant"])
     limits = limits[limits["disturbance"] == limit.disturbance]
     return limits.assign(value=limit.scale * limits["limit"].fillna(0.0))
 

@@ -1,5 +1,6 @@
 """What studies left, for figures and statistics; nothing is run here."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,21 +21,22 @@ class StudyResults:
 
     folder: Path
 
-    def table(self, study: str) -> pd.DataFrame:
+    def table(self, study: str, columns: Sequence[str] = ()) -> pd.DataFrame:
         """Return one row a job: its levels, then its numbers.
 
         Raises:
-            LogError: if the study has not been run.
+            LogError: if the study has not been run, or one of ``columns`` is missing as it had another form then.
         """
-        return pd.read_csv(self._file(study, "table.csv"))
+        return self._csv(study, "table.csv", columns)
 
-    def limits(self, study: str) -> pd.DataFrame:
+    def limits(self, study: str, columns: Sequence[str] = ()) -> pd.DataFrame:
         """Return one row a search: its levels and the largest value survived.
 
         Raises:
-            LogError: if the study has not been run, or searches for nothing.
+            LogError: if the study has not been run, searches for nothing, or one of ``columns`` is missing as it had
+                another form then.
         """
-        return pd.read_csv(self._file(study, "limits.csv"))
+        return self._csv(study, "limits.csv", columns)
 
     def trace(self, study: str, name: str) -> pd.DataFrame:
         """Return the kept curves of one trial by time in [s]; columns are named ``<table>.<column>``.
@@ -63,6 +65,17 @@ class StudyResults:
     def snapshots(self, study: str, name: str) -> list[Path]:
         """Return the pictures of a trial in the order of time."""
         return sorted((self.folder / study / "traces").glob(f"{name}.[0-9][0-9].png"))
+
+    def _csv(self, study: str, name: str, columns: Sequence[str]) -> pd.DataFrame:
+        """Return a table that has some columns."""
+        table = pd.read_csv(self._file(study, name))
+        missing = [column for column in columns if column not in table]
+        if missing:
+            raise LogError(
+                f"{study}/{name}: no column '{missing[0]}', the study has changed since it was run; "
+                f"python experiments/run_study.py {study} makes it anew"
+            )
+        return table
 
     def _file(self, study: str, name: str) -> Path:
         path = self.folder / study / name

@@ -91,7 +91,7 @@ class StudyConfig(StrictModel):
         traces: curves to keep.
         plans: names of plans to keep, with the levels that pick their jobs.
         report_by: factors whose combinations are the lines of the report.
-        report_columns: result columns of which the report shows median and worst.
+        report_columns: result columns of which the report shows median and largest value.
     """
 
     title: str

@@ -3,7 +3,7 @@
 import hashlib
 import json
 from dataclasses import dataclass
-from functools import cache
+from glob import escape
 from pathlib import Path
 from typing import Any
 
@@ -69,6 +69,13 @@ class StudyFolder:
         return self.path / "rows" / f"{identifier}.json"
 
 
+def remove_trace(name: str, folder: StudyFolder) -> None:
+    """Remove what ``write_trace`` left under a name, however many pictures it were."""
+    pictures = (folder.path / "traces").glob(f"{escape(name)}.[0-9][0-9].png")
+    for path in (folder.trace(name), folder.events(name), folder.plan(name), *pictures):
+        path.unlink(missing_ok=True)
+
+
 def trace_files(trace: TraceConfig, folder: StudyFolder) -> list[Path]:
     """Return the files that ``write_trace`` leaves."""
     pictures = [folder.snapshot(trace.name, number) for number in range(len(trace.snapshots_s))]
@@ -83,17 +90,26 @@ def read_row(folder: StudyFolder, identifier: str, settings: str) -> dict[str, A
         identifier: of the condition.
         settings: what the row depends on, as given to ``write_row``.
     """
-    path = folder.row(identifier)
+    remembered_settings, row = _read(folder.row(identifier))
+    return row if remembered_settings == settings else None
+
+
+def last_row(folder: StudyFolder, identifier: str) -> dict[str, Any] | None:
+    """Return the last row of a job that was remembered, whatever it depended on, or None."""
+    return _read(folder.row(identifier))[1]
+
+
+def _read(path: Path) -> tuple[object, dict[str, Any] | None]:
+    """Return settings and row in a file; None if there is none, or if it is damaged: it is made again."""
     if not path.is_file():
-        return None
+        return None, None
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except ValueError:
-        return None  # half a file cannot happen, a damaged one is made again
-    if not isinstance(content, dict) or content.get("settings") != settings:
-        return None
-    row = content.get("row")
-    return row if isinstance(row, dict) else None
+        return None, None
+    if not isinstance(content, dict) or not isinstance(content.get("row"), dict):
+        return None, None
+    return content.get("settings"), content["row"]
 
 
 def write_row(folder: StudyFolder, identifier: str, settings: str, row: dict[str, Any]) -> None:
@@ -101,7 +117,6 @@ def write_row(folder: StudyFolder, identifier: str, settings: str, row: dict[str
     write_json(folder.row(identifier), {"settings": settings, "row": row})
 
 
-@cache
 def configuration_hash() -> str:
     """Return one hash of what the YAML files say that trials are made of: rows remembered under another one are stale.
 

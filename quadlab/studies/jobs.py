@@ -9,7 +9,7 @@ from quadlab.errors import ConfigurationError
 from quadlab.paths import checkout_dir
 from quadlab.planners.plan import MotionPlan
 from quadlab.studies.files import file_hash
-from quadlab.studies.rows import DIRECTORY, FAILURE, Row
+from quadlab.studies.rows import DIRECTORY, FAILURE, LOG_HASH, Row
 from quadlab.trials.compose import compose_trial, split_document
 from quadlab.trials.composer import Composer
 from quadlab.trials.config import RunOptions, TrialConfig
@@ -89,7 +89,7 @@ def trial_row(overrides: Sequence[str], folder: Path) -> Row:
     log = outcome.directory / LOG_FILE
     return {
         **outcome.result.model_dump(mode="json", exclude={"schema_version"}),
-        "log_sha256": file_hash(log) if log.is_file() else None,
+        LOG_HASH: file_hash(log) if log.is_file() else None,
         **place,
     }
 

@@ -9,7 +9,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from quadlab.errors import ConfigurationError
-from quadlab.planners.plan_io import save_plan
+from quadlab.planners.plan_io import plan_to_bytes
 from quadlab.planners.planner import PlanningOutcome
 from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.vertex_zmp.biped import RECTANGULAR_FOOT, biped_problem
@@ -18,6 +18,7 @@ from quadlab.planners.vertex_zmp.table_one import TABLE_ONE, table_one_changes, 
 from quadlab.studies.jobs import current_commit, plan_numbers, study_job
 from quadlab.studies.rows import DIRECTORY, FAILURE, Row
 from quadlab.trials.compose import compose_trial
+from quadlab.trials.files import write_bytes
 from quadlab.trials.plan_job import PLAN_FILE
 from quadlab.trials.problems import suggestion
 
@@ -69,8 +70,7 @@ def table_one_row(overrides: Sequence[str], folder: Path) -> Row:
     if last.plan is None:
         return row
     directory = folder / "trials" / "_".join(options.values()).replace(" ", "_")
-    directory.mkdir(parents=True, exist_ok=True)
-    save_plan(last.plan, directory / PLAN_FILE)
+    write_bytes(directory / PLAN_FILE, plan_to_bytes(last.plan))
     times = {
         "build_ms": median(build_ms for build_ms, _ in outcomes),
         "solve_ms": median(outcome.plan.report.solve_ms for _, outcome in outcomes if outcome.plan),

@@ -54,13 +54,31 @@ class OpenCondition:
 
 @dataclass
 class OpenStudy:
-    """A study under way."""
+    """A study under way.
+
+    Attributes:
+        name: of its file.
+        config: what that says.
+        folder: for what it leaves.
+        configuration: see ``configuration_hash``, of when it began.
+        conditions: all of them.
+    """
 
     name: str
     config: StudyConfig
     folder: StudyFolder
+    configuration: str
     conditions: list[OpenCondition]
-    changed: bool = False
+
+    @property
+    def rows(self) -> list[tuple[Condition, Row]]:
+        """All jobs with their rows so far, in the order of the conditions."""
+        return [row for condition in self.conditions for row in condition.rows]
+
+    @property
+    def searches(self) -> list[tuple[Condition, BoundarySearch]]:
+        """What is searched for, each with the condition in which it is."""
+        return [(condition.condition, condition.search) for condition in self.conditions if condition.search]
 
     def open_jobs(self, progress: StudyProgress) -> Iterator[tuple[OpenCondition, Condition]]:
         """Yield the first job of each condition that was not done before."""
@@ -86,15 +104,20 @@ class OpenStudy:
 
     def work(self, job: Condition) -> Work:
         """Return what a process needs to do a job."""
-        return Work(self.config, self.folder, job)
+        return Work(self.config, self.folder, job, self.configuration)
 
 
 PendingJob: TypeAlias = tuple[OpenStudy, OpenCondition, Condition]
 """A job with what it belongs to."""
 
 
-def open_study(name: str, results: Path) -> OpenStudy:
+def open_study(name: str, results: Path, configuration: str) -> OpenStudy:
     """Return a study that is about to be run.
+
+    Args:
+        name: of its file.
+        results: folder of all results.
+        configuration: see ``configuration_hash``.
 
     Raises:
         ConfigurationError: if there is no such study, or something in it is wrong.
@@ -105,4 +128,4 @@ def open_study(name: str, results: Path) -> OpenStudy:
     if problems:
         raise ConfigurationError("\n".join(problems))
     opened = [OpenCondition(c, BoundarySearch(c.search) if c.search else None) for c in found]
-    return OpenStudy(name, config, StudyFolder(results / name), opened)
+    return OpenStudy(name, config, StudyFolder(results / name), configuration, opened)

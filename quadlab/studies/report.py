@@ -7,6 +7,7 @@ import pandas as pd
 from quadlab.analysis.statistics import wilson_interval
 from quadlab.studies.config import StudyConfig
 from quadlab.studies.progress import GOOD
+from quadlab.trials.result import TrialStatus
 
 
 def study_report(study: StudyConfig, table: pd.DataFrame, limits: pd.DataFrame) -> str:
@@ -24,7 +25,7 @@ def study_report(study: StudyConfig, table: pd.DataFrame, limits: pd.DataFrame) 
 
 
 def success_share(good: int, trials: int) -> str:
-    """Return "good of trials (lower to upper %)" with the 95 % interval of Wilson."""
+    """Return "good of trials (lower to upper %)" with the 95 % interval of Wilson; errors are no trials."""
     interval = wilson_interval(good, trials)
     return f"{good} of {trials} ({100 * interval.lower:.0f} to {100 * interval.upper:.0f} %)"
 
@@ -32,12 +33,13 @@ def success_share(good: int, trials: int) -> str:
 def _success_lines(study: StudyConfig, table: pd.DataFrame) -> Iterator[str]:
     names = [name for name in study.report_by if name in table]
     shown = [column for column in study.report_columns if column in table]
-    yield _line([*names, "completed (95 %)", *(f"{column} median / worst" for column in shown), "failures"])
+    yield _line([*names, "completed (95 %)", *(f"{column}, median / max" for column in shown), "failures"])
     yield _rule(len(names), 1 + len(shown), 1)
     for key, rows in _groups(table, names):
         good = rows["status"].isin(GOOD)
-        numbers = [_median_and_worst(rows.loc[good, column]) for column in shown]
-        yield _line([*key, success_share(int(good.sum()), len(rows)), *numbers, _failures(rows[~good])])
+        known = int((rows["status"] != TrialStatus.ERROR.value).sum())  # errors say nothing about the robot
+        numbers = [_median_and_max(rows.loc[good, column]) for column in shown]
+        yield _line([*key, success_share(int(good.sum()), known), *numbers, _failures(rows[~good])])
 
 
 def _limit_lines(study: StudyConfig, limits: pd.DataFrame) -> Iterator[str]:
@@ -73,7 +75,7 @@ def _groups(table: pd.DataFrame, names: Sequence[str]) -> Iterator[tuple[list[st
         yield [str(value) for value in key], table.loc[rows.index]
 
 
-def _median_and_worst(values: "pd.Series[float]") -> str:
+def _median_and_max(values: "pd.Series[float]") -> str:
     return f"{values.median():.3g} / {values.max():.3g}" if values.notna().any() else "-"
 
 

@@ -7,13 +7,15 @@ from collections import deque
 from collections.abc import Sequence
 from pathlib import Path
 
-from quadlab.studies.open_study import OpenStudy, open_study
+from quadlab.studies.content import is_told
+from quadlab.studies.files import configuration_hash
+from quadlab.studies.open_study import open_study
 from quadlab.studies.progress import StudyProgress
 from quadlab.trials.result import TrialStatus
 
 
 def run_studies(names: Sequence[str], results: Path, workers: int, progress: StudyProgress) -> int:
-    """Run what is missing of some studies, write their tables, and return how many jobs ended in an error.
+    """Run what is missing of some studies, write tables that tell something else, and return the number of errors.
 
     Args:
         names: of the studies.
@@ -25,7 +27,8 @@ def run_studies(names: Sequence[str], results: Path, workers: int, progress: Stu
         ConfigurationError: if a study does not exist, or something in it is wrong; nothing was run then.
         OSError: if files cannot be written.
     """
-    studies = [open_study(name, results) for name in names]
+    configuration = configuration_hash()
+    studies = [open_study(name, results, configuration) for name in names]
     queue = deque((study, *job) for study in studies for job in study.open_jobs(progress))
     if queue:
         from quadlab.studies.check import check_jobs  # noqa: PLC0415
@@ -37,15 +40,8 @@ def run_studies(names: Sequence[str], results: Path, workers: int, progress: Stu
             study.folder.path.mkdir(parents=True, exist_ok=True)
         work_off(queue, workers, progress)
     for study in studies:
-        if study.changed or not study.folder.table.is_file():
-            _write_tables(study)
-    everything = [row for study in studies for condition in study.conditions for _, row in condition.rows]
-    return sum(row["status"] == TrialStatus.ERROR for row in everything)
+        if not is_told(study):
+            from quadlab.studies.tables import write_tables  # noqa: PLC0415
 
-
-def _write_tables(study: OpenStudy) -> None:
-    from quadlab.studies.tables import write_tables  # noqa: PLC0415
-
-    rows = [row for condition in study.conditions for row in condition.rows]
-    searches = [(c.condition, c.search) for c in study.conditions if c.search is not None]
-    write_tables(study.config, study.folder, rows, searches)
+            write_tables(study)
+    return sum(row["status"] == TrialStatus.ERROR for study in studies for _, row in study.rows)

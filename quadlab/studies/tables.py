@@ -8,8 +8,8 @@ import pandas as pd
 from quadlab.paths import checkout_dir
 from quadlab.studies.boundary import BoundarySearch
 from quadlab.studies.condition import Condition
-from quadlab.studies.config import StudyConfig
-from quadlab.studies.files import StudyFolder, configuration_hash
+from quadlab.studies.content import CONTENT, content_hash
+from quadlab.studies.open_study import OpenStudy
 from quadlab.studies.report import study_report
 from quadlab.trials.files import write_json, write_text
 from quadlab.trials.manifest import git_state, installed_packages, lock_hash, processor, thread_environment
@@ -19,14 +19,16 @@ Searches = Sequence[tuple[Condition, BoundarySearch]]
 FLOAT_FORMAT = "%.6g"
 
 
-def write_tables(study: StudyConfig, folder: StudyFolder, rows: Rows, searches: Searches) -> None:
-    """Write ``table.csv``, ``limits.csv`` if something was searched for, ``manifest.json`` and ``report.md``."""
-    table, limits = job_table(rows), limit_table(searches)
+def write_tables(study: OpenStudy) -> None:
+    """Write ``table.csv``, ``limits.csv`` if something was searched for, ``report.md`` and, last, ``manifest.json``."""
+    folder, table, limits = study.folder, job_table(study.rows), limit_table(study.searches)
     write_text(folder.table, table.to_csv(index=False, float_format=FLOAT_FORMAT))
     if len(limits):
         write_text(folder.limits, limits.to_csv(index=False, float_format=FLOAT_FORMAT))
-    write_json(folder.manifest, study_manifest(table))
-    write_text(folder.report, study_report(study, table, limits))
+    else:
+        folder.limits.unlink(missing_ok=True)  # of an earlier form of the study
+    write_text(folder.report, study_report(study.config, table, limits))
+    write_json(folder.manifest, {**study_manifest(study, table), CONTENT: content_hash(study)})
 
 
 def job_table(rows: Rows) -> pd.DataFrame:
@@ -56,14 +58,14 @@ def limit_table(searches: Searches) -> pd.DataFrame:
     )
 
 
-def study_manifest(table: pd.DataFrame) -> dict[str, Any]:
-    """Return what the numbers of a table depend on besides the configuration."""
+def study_manifest(study: OpenStudy, table: pd.DataFrame) -> dict[str, Any]:
+    """Return what the numbers of a study's table depend on."""
     commits = table["commit"].dropna().value_counts().to_dict() if "commit" in table else {}
     return {
         "jobs": len(table),
         "commits": {str(commit): int(count) for commit, count in commits.items()},
         "git": git_state(checkout_dir()),
-        "configuration_sha256": configuration_hash(),
+        "configuration_sha256": study.configuration,
         "lock_sha256": lock_hash(checkout_dir()),
         "cpu": processor(),
         "environment": thread_environment(),

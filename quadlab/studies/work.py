@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from quadlab.studies.condition import Condition
 from quadlab.studies.config import StudyConfig, TraceConfig
-from quadlab.studies.files import StudyFolder, configuration_hash, read_row, trace_files
+from quadlab.studies.files import StudyFolder, read_row, trace_files
 from quadlab.studies.rows import DIRECTORY, Row
 from quadlab.trials.result import RESULT_FILE, TrialStatus
 
@@ -19,16 +19,18 @@ class Work:
         study: that it belongs to.
         folder: of the study.
         condition: to run.
+        configuration: hash of what the YAML files said when the study began.
     """
 
     study: StudyConfig
     folder: StudyFolder
     condition: Condition
+    configuration: str
 
     @property
     def settings(self) -> str:
         """What the row depends on besides the overrides."""
-        return f"{self.study.job} {configuration_hash()} {self.study.kept_hash}"
+        return f"{self.study.job} {self.configuration} {self.study.kept_hash}"
 
     @property
     def traces(self) -> list[TraceConfig]:

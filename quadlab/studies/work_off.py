@@ -8,7 +8,7 @@ from quadlab.studies.open_study import PendingJob
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.rows import FAILURE, Row
 from quadlab.studies.worker import do_work, warm_up_works
-from quadlab.sweeps.job import Job, JobStatus, Outcome
+from quadlab.sweeps.job import Event, Job, JobStatus, Notice, Outcome
 from quadlab.sweeps.limits import PoolConfig
 from quadlab.sweeps.pool import NO_PRELOAD, run_pool
 from quadlab.trials.result import TrialStatus
@@ -39,16 +39,21 @@ def work_off(waiting: deque[PendingJob], workers: int, progress: StudyProgress) 
     preloads = (Job("warming up", warm_up_works, (list(first.values()),)), NO_PRELOAD)
     queue = JobQueue(waiting)
     pool = PoolConfig(workers=workers, memory_limit_gib=None, time_limit_s=None)
-    with closing(run_pool(queue, pool, preloads=preloads)) as outcomes:
+    with closing(run_pool(queue, pool, lambda event: _say_notice(event, progress), preloads)) as outcomes:
         for outcome in outcomes:
             study, condition, job = queue.handed_out[outcome.number]
             row = outcome.value if outcome.status is JobStatus.RETURNED else _failed(outcome)
             condition.take(job, row)
-            study.changed = True
             progress.finish(study.job_name(job), row)
             following = study.advance(condition, progress)
             if following is not None:
                 queue.waiting.appendleft((study, condition, following))
+
+
+def _say_notice(event: Event, progress: StudyProgress) -> None:
+    """Print what concerns no single job, such as workers that cannot be started."""
+    if isinstance(event, Notice):
+        progress.say(event.text)
 
 
 def _failed(outcome: Outcome) -> Row:

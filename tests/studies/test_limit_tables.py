@@ -1,5 +1,7 @@
 """Limits in tables and reports: what was found, what could not be, and how sure it is."""
 
+from pathlib import Path
+
 import pandas as pd
 import pytest
 
@@ -67,6 +69,19 @@ def test_report_says_of_how_many_searches_values_below_the_limit_were_tried() ->
     odd = _searched(80.0, confirm=2)
     odd[1].record(70.0, survived=False)
     assert _report(_searched(80.0, confirm=1), odd, _searched(80.0)).endswith("| 0 | 1 of 2 |")
+
+
+def test_figures_refuse_tables_of_an_earlier_form_of_the_study(tmp_path: Path) -> None:
+    (tmp_path / "ablations").mkdir()
+    for name in ("limits.csv", "table.csv"):
+        limit_table([_searched(80.0)]).to_csv(tmp_path / "ablations" / name, index=False)
+    results = StudyResults(tmp_path)
+    line = r"^ablations/{}\.csv: no column 'disturbance', .*; python experiments/run_study.py ablations makes it anew$"
+    with pytest.raises(LogError, match=line.format("limits")):
+        known_limits(results, "ablations", ["gait", "disturbance"])
+    with pytest.raises(LogError, match=line.format("table")):
+        results.table("ablations", ["gait", "disturbance"])
+    assert len(known_limits(results, "ablations", ["gait"])) == len(results.table("ablations", ["gait"])) == 1
 
 
 def test_figures_refuse_limits_that_are_unknown(monkeypatch: pytest.MonkeyPatch) -> None:

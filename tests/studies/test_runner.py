@@ -1,6 +1,5 @@
 """Studies run what is missing and nothing else; what fails is a row."""
 
-from collections.abc import Iterator
 from io import StringIO
 from pathlib import Path
 
@@ -11,7 +10,6 @@ import yaml
 from quadlab.analysis.study_results import StudyResults
 from quadlab.errors import ConfigurationError, LogError
 from quadlab.studies import config as study_config
-from quadlab.studies import files
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.runner import run_studies
 
@@ -25,15 +23,13 @@ STUDY = {
 
 
 @pytest.fixture
-def study_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+def study_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder of studies with one in it; only the search for studies looks there."""
     folder = tmp_path / "conf" / "study"
     folder.mkdir(parents=True)
     (folder / "standing.yaml").write_text(yaml.safe_dump(STUDY))
     monkeypatch.setattr(study_config, "CONF_DIR", tmp_path / "conf")
-    files.configuration_hash.cache_clear()
-    yield folder
-    files.configuration_hash.cache_clear()
+    return folder
 
 
 def _run(results: Path) -> str:

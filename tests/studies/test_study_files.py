@@ -6,7 +6,7 @@ import pytest
 
 from quadlab.errors import ConfigurationError
 from quadlab.studies import config, files
-from quadlab.studies.files import StudyFolder, read_row, write_row
+from quadlab.studies.files import StudyFolder, last_row, read_row, remove_trace, write_row
 
 
 def test_remembered_row_comes_back_for_the_same_settings_only(tmp_path: Path) -> None:
@@ -14,6 +14,8 @@ def test_remembered_row_comes_back_for_the_same_settings_only(tmp_path: Path) ->
     write_row(folder, "a", "settings", {"x": 1})
     assert read_row(folder, "a", "settings") == {"x": 1}
     assert read_row(folder, "a", "others") is None
+    assert last_row(folder, "a") == {"x": 1}
+    assert last_row(folder, "b") is None
 
 
 def _hash_of(folder: Path, monkeypatch: pytest.MonkeyPatch, **contents: str) -> str:
@@ -22,7 +24,7 @@ def _hash_of(folder: Path, monkeypatch: pytest.MonkeyPatch, **contents: str) -> 
         path.parent.mkdir(exist_ok=True)
         path.write_text(text)
     monkeypatch.setattr(files, "CONF_DIR", folder)
-    return files.configuration_hash.__wrapped__()
+    return files.configuration_hash()
 
 
 @pytest.mark.parametrize(
@@ -49,6 +51,17 @@ def test_damaged_row_is_made_again(tmp_path: Path, content: bytes) -> None:
     write_row(folder, "a", "s", {})
     folder.row("a").write_bytes(content)
     assert read_row(folder, "a", "s") is None
+
+
+def test_trace_is_removed_with_all_its_pictures_and_no_other(tmp_path: Path) -> None:
+    gone = ["a[1].parquet", "a[1].events.csv", "a[1].00.png", "a[1].11.png"]
+    stay = ["a1.parquet", "a1.00.png", "a[1]_2.parquet", "a[1].b.parquet", "a[1].b.00.png"]
+    for name in (*gone, *stay):
+        (tmp_path / "traces").mkdir(exist_ok=True)
+        (tmp_path / "traces" / name).touch()
+    remove_trace("a[1]", StudyFolder(tmp_path))
+    assert sorted(path.name for path in (tmp_path / "traces").iterdir()) == sorted(stay)
+    remove_trace("b", StudyFolder(tmp_path / "nowhere"))
 
 
 def test_study_that_is_no_text_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
