@@ -2,6 +2,7 @@
 
 import io
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,9 @@ from sweep_cases import FREE, run, standing
 
 from quadlab.sweeps.terminal import PlainSweep
 from quadlab.sweeps.trial_pool import SweepTrial, run_trials, unique_trials
-from quadlab.trials.config import RunOptions
+from quadlab.sweeps.warm_up import import_trials, warm_up
+from quadlab.trials import manifest as manifest_module
+from quadlab.trials.config import RunOptions, TrialConfig
 from quadlab.trials.job import run_job, trial_directory
 from quadlab.trials.progress import SilentProgress
 from quadlab.trials.result import RESULT_FILE
@@ -47,6 +50,25 @@ def test_equal_trials_are_said_to_be_run_once() -> None:
     assert "2 trials are equal to others and will be run once" in stream.getvalue()
     assert unique_trials(trials, PlainSweep(stream)) == trials
     assert stream.getvalue().count("equal") == 1
+
+
+@pytest.mark.parametrize("preload", [import_trials, lambda: warm_up(())], ids=["importing", "warming up"])
+def test_trials_name_the_code_that_was_loaded_whatever_is_committed_meanwhile(
+    preload: Callable[[], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    config = standing(1)[0].config
+    loaded = _code_of(config)
+    manifest_module.git_state.cache_clear()
+    manifest_module.lock_hash.cache_clear()
+    preload()
+    monkeypatch.setattr(manifest_module, "_git", lambda *_: b"0" * 40)
+    monkeypatch.setattr(manifest_module, "sha256", lambda _: "0" * 64)
+    assert _code_of(config) == loaded
+
+
+def _code_of(config: TrialConfig) -> list[object]:
+    found = manifest_module.collect_manifest(config)
+    return [found["git"], found["lock_sha256"]]
 
 
 def test_trial_that_takes_too_long_leaves_its_reason_and_no_result(tmp_path: Path) -> None:
