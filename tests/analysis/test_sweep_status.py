@@ -75,9 +75,24 @@ def test_what_a_tag_lacks_its_parent_lacks_too(
     assert main(["status", str(tmp_path / "two")]) == 1
     assert main(["status", str(tmp_path)]) == 1
     shown = capsys.readouterr().out
-    assert shown.count("2 asked for") == 2
+    assert "2 asked for" in shown
+    assert "3 asked for" in shown
     assert shown.count("  missing  ") == 2
     assert "  stale         one/" in shown
+
+
+def test_trial_that_only_another_tag_has_is_missing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(status_module, "git_state", lambda _: None)
+    for tag in ("one", "two"):
+        _record(tmp_path, tag, 0)
+    name = finish(tmp_path, "seed=0", "tag=one").name
+    assert main(["status", str(tmp_path)]) == 1
+    first, missing, record = capsys.readouterr().out.splitlines()
+    assert first.endswith("2 asked for, 1 finished (1 completed), 1 missing")
+    assert missing == f"  missing       two/{name} (seed=0)"
+    assert record.startswith(f"  {tmp_path}/two/sweeps/")
 
 
 @pytest.mark.parametrize("inside", ["", "tag/sweeps", "tag/0123456789abcdef"])
