@@ -80,7 +80,9 @@ def _clean(options: argparse.Namespace) -> int:
         sys.stderr.write("quadlab: nothing was removed; --yes removes it without asking\n")
         return EXIT_USAGE
     for item in litter:
-        item.remove()
+        reason = item.remove()
+        if reason is not None:
+            sys.stdout.write(f"left {item.directory}: {reason}\n")
     return EXIT_OK
 
 

@@ -12,7 +12,7 @@ import pandas as pd
 from quadlab.analysis.collection import COMMIT, Collection
 from quadlab.analysis.inventory import EntryState, TrialEntry, trial_entries
 from quadlab.errors import LogError
-from quadlab.trials.files import write_text
+from quadlab.trials.files import unfinished_path, write_text
 from quadlab.trials.result import TrialResult, TrialStatus
 
 INDEX = "trial_id"
@@ -63,7 +63,7 @@ def _table(entries: Sequence[TrialEntry]) -> pd.DataFrame:
 def write_collected(table: pd.DataFrame, folder: Path) -> tuple[Path, Path]:
     """Write ``trials.parquet`` and ``trials.csv`` into ``folder``, each in one step, and return their paths."""
     parquet, csv = folder / PARQUET, folder / CSV
-    part = folder / f"{PARQUET}.{os.getpid()}.part"
+    part = unfinished_path(parquet)
     try:
         table.to_parquet(part)
         os.replace(part, parquet)

@@ -78,16 +78,21 @@ def trial_entries(folder: Path) -> list[TrialEntry]:
     if not folder.is_dir():
         raise LogError(f"{folder}: no such folder; expected one with trials in it, e.g. results/trials")
     found = [path for path in folder.rglob("*") if _TRIAL_NAME.fullmatch(path.name) and path.is_dir()]
-    return [TrialEntry(path, *_state(path)) for path in sorted(found, key=lambda path: (path.name, path))]
+    return [trial_entry(path) for path in sorted(found, key=lambda path: (path.name, path))]
 
 
-def _state(directory: Path) -> tuple[EntryState, TrialResult | None, str]:
+def trial_entry(directory: Path, *, held: bool = False) -> TrialEntry:
+    """Return what is known of the trial in ``directory``, which nobody else runs if this process holds it."""
+    return TrialEntry(directory, *_state(directory, held))
+
+
+def _state(directory: Path, held: bool) -> tuple[EntryState, TrialResult | None, str]:
     if (directory / RESULT_FILE).is_file():
         try:
             return EntryState.FINISHED, read_result(directory), ""
         except LogError as error:
             return EntryState.UNREADABLE, None, str(error)
-    if is_running(directory):
+    if not held and is_running(directory):
         return EntryState.RUNNING, None, ""
     if (directory / ERROR_FILE).is_file():
         error_file = _mapping(directory / ERROR_FILE, json.loads)

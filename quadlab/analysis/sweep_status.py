@@ -24,24 +24,24 @@ class SweepStatus:
     Attributes:
         folder: that was looked at.
         entries: all trials that are there.
-        records: what each sweep asked for: names by trial id.
+        records: what each sweep asked for: names by the directories of the trials.
         commit: of the code now; None if unknown.
     """
 
     folder: Path
     entries: tuple[TrialEntry, ...]
-    records: Mapping[Path, Mapping[str, str]]
+    records: Mapping[Path, Mapping[Path, str]]
     commit: str | None
 
     @cached_property
-    def names(self) -> dict[str, str]:
-        """Names of the trials that sweeps asked for, by trial id."""
-        return {trial: name for record in self.records.values() for trial, name in record.items()}
+    def names(self) -> dict[Path, str]:
+        """Names of the trials that sweeps asked for, by directory: the same trial may be wanted under several tags."""
+        return {directory: name for record in self.records.values() for directory, name in record.items()}
 
-    @property
-    def missing(self) -> list[str]:
-        """Trials that were asked for and never began."""
-        return sorted(set(self.names) - {entry.trial_id for entry in self.entries})
+    @cached_property
+    def missing(self) -> list[Path]:
+        """Directories of trials that were asked for and never began."""
+        return sorted(set(self.names) - {entry.directory for entry in self.entries})
 
     @property
     def stale(self) -> list[TrialEntry]:
@@ -66,8 +66,8 @@ class SweepStatus:
         for entry in self.entries:
             if entry.state is not EntryState.FINISHED:
                 yield self._line(entry.state.value, entry.directory, entry.reason)
-        for name in self.missing:
-            yield self._line("missing", self.folder / name, "")
+        for directory in self.missing:
+            yield self._line("missing", directory, "")
         for path, record in self.records.items():
             if wanted := len(record.keys() & set(self.missing)):
                 yield f"  {path} asked for {wanted} of the missing; remove it if they are not wanted any more"
@@ -94,7 +94,7 @@ class SweepStatus:
         return ", ".join([*asked, finished, *(f"{count} {state}" for state, count in rest.items() if count)])
 
     def _line(self, word: str, directory: Path, reason: str) -> str:
-        trial, name = str(directory.relative_to(self.folder)), self.names.get(directory.name)
+        trial, name = str(directory.relative_to(self.folder)), self.names.get(directory)
         named = trial if name is None else f"{trial} ({name})"
         return f"  {word:12}  {named}{': ' if reason else ''}{reason}"
 

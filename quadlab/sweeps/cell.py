@@ -18,7 +18,7 @@ class Cell:
 
     Attributes:
         trials: of the cell.
-        options: how to run each of them.
+        options: how to run each of them, not forced: a result that is there is new, see ``without_old_results``.
         pool: how to run all of them, on the machine that gets the cell.
     """
 
@@ -39,12 +39,11 @@ class Cell:
         return [self._found(trial, reason) for trial in self.trials]
 
     def _found(self, trial: SweepTrial, reason: str) -> SweepOutcome:
-        options = self.options.model_copy(update={"force": False})
         try:
-            job = finished_before(trial.config, options)
+            job = finished_before(trial.config, self.options)
         except LogError as error:
-            job = record_failure(trial.config, options, "died", f"{reason}; {error}", "")
-        return SweepOutcome(trial, job or record_failure(trial.config, options, "died", reason, ""))
+            job = record_failure(trial.config, self.options, "died", f"{reason}; {error}", "")
+        return SweepOutcome(trial, job or record_failure(trial.config, self.options, "died", reason, ""))
 
 
 def cells(trials: Sequence[SweepTrial], size: int, options: RunOptions, pool: PoolConfig) -> list[Cell]:

@@ -16,11 +16,13 @@ from quadlab.trials.main import run_document, run_jobs
 if TYPE_CHECKING:
     from omegaconf import DictConfig
 
-    from quadlab.sweeps.multirun import Sweep
+    from quadlab.sweeps.options import SweepOptions
     from quadlab.sweeps.progress import SweepProgress
     from quadlab.sweeps.trial_pool import SweepOutcome, SweepTrial
+    from quadlab.trials.config import RunOptions
 
 MULTIRUN_FLAGS = frozenset({"-m", "--multirun"})
+_INTERRUPTED = "interrupted; the same command{} goes on where it stopped"
 _CHECKED_FIRST = ("launcher=pool", "launcher=slurm")
 
 
@@ -77,14 +79,14 @@ def run_sweep(arguments: Sequence[str]) -> int:
         complain(os_error_line(error))
         return EXIT_FAILED
     except KeyboardInterrupt:
-        complain("interrupted; the same command goes on where it stopped")
+        complain(_INTERRUPTED.format(""))
         return EXIT_INTERRUPTED
 
 
 def _run(overrides: Sequence[str], progress: "SweepProgress") -> int:
     from quadlab.sweeps.multirun import check_sweep, sweep_points  # noqa: PLC0415
     from quadlab.sweeps.record import record_sweep  # noqa: PLC0415
-    from quadlab.sweeps.trial_pool import unique_trials  # noqa: PLC0415
+    from quadlab.sweeps.trial_pool import unique_trials, without_old_results  # noqa: PLC0415
 
     points = sweep_points(overrides)
     progress.notice(f"checking {len(points)} trials")
@@ -93,20 +95,22 @@ def _run(overrides: Sequence[str], progress: "SweepProgress") -> int:
     if sweep.options.shard:
         trials = sweep.options.shard.of(trials)
     record_sweep(sweep.trials, sweep.run)
-    failures = 0
-    with closing(_start(trials, sweep, progress)) as outcomes:
-        for outcome in outcomes:
-            failures += outcome.job.result is None
+    run = without_old_results(trials, sweep.run)
+    try:
+        with closing(_start(trials, run, sweep.options, progress)) as outcomes:
+            failures = sum(outcome.job.result is None for outcome in outcomes)
+    except KeyboardInterrupt:
+        complain(_INTERRUPTED.format(" without force=true" if sweep.run.force else ""))
+        return EXIT_INTERRUPTED
     return EXIT_FAILED if failures else EXIT_OK
 
 
 def _start(
-    trials: "Sequence[SweepTrial]", sweep: "Sweep", progress: "SweepProgress"
+    trials: "Sequence[SweepTrial]", run: "RunOptions", options: "SweepOptions", progress: "SweepProgress"
 ) -> "Generator[SweepOutcome, None, None]":
     from quadlab.sweeps.slurm import run_on_slurm  # noqa: PLC0415
     from quadlab.sweeps.trial_pool import run_trials  # noqa: PLC0415
 
-    pool, slurm = sweep.options.pool, sweep.options.slurm
-    if slurm:
-        return run_on_slurm(trials, sweep.run, pool, slurm, progress)
-    return run_trials(trials, sweep.run, pool, progress)
+    if options.slurm:
+        return run_on_slurm(trials, run, options.pool, options.slurm, progress)
+    return run_trials(trials, run, options.pool, progress)

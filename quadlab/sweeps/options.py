@@ -12,6 +12,7 @@ from quadlab.sweeps.limits import PoolConfig
 from quadlab.sweeps.slurm import SlurmConfig
 from quadlab.sweeps.trial_pool import SweepTrial
 from quadlab.trials.compose import sweep_values, validated
+from quadlab.trials.config import TrialConfig
 from quadlab.trials.identity import trial_id
 
 
@@ -45,8 +46,12 @@ class Shard(StrictModel):
 
         They are dealt out in the order of their ids, so that no part gets all trials with one value of a factor.
         """
-        order = sorted(range(len(trials)), key=lambda number: trial_id(trials[number].config))
+        order = sorted(range(len(trials)), key=lambda number: _order(trials[number].config))
         return [trials[number] for number in sorted(order[self.index :: self.count])]
+
+
+def _order(config: TrialConfig) -> tuple[str, str]:
+    return trial_id(config), config.tag
 
 
 class SweepOptions(StrictModel):

@@ -29,8 +29,8 @@ def record_sweep(trials: Sequence[SweepTrial], options: RunOptions) -> list[Path
     return [_write(Path(options.results_dir) / tag / FOLDER, names) for tag, names in by_tag.items()]
 
 
-def sweep_records(folder: Path) -> dict[Path, dict[str, str]]:
-    """Return the record of each sweep into ``folder`` or a tag below it: the names of its trials, by trial id.
+def sweep_records(folder: Path) -> dict[Path, dict[Path, str]]:
+    """Return the record of each sweep into ``folder`` or a tag below it: the names of its trials, by their directories.
 
     Empty if no sweep is known.
 
@@ -40,9 +40,10 @@ def sweep_records(folder: Path) -> dict[Path, dict[str, str]]:
     return {path: _read(path) for path in sorted(folder.rglob(f"{FOLDER}/*.json"))}
 
 
-def _read(path: Path) -> dict[str, str]:
+def _read(path: Path) -> dict[Path, str]:
+    tag = path.parent.parent
     try:
-        return _NAMES.validate_json(path.read_bytes())
+        return {tag / trial: name for trial, name in _NAMES.validate_json(path.read_bytes()).items()}
     except ValidationError as error:
         reason = error.errors()[0]["msg"]
         raise LogError(f"{path}: not the record of a sweep ({reason}); remove it") from error

@@ -4,20 +4,24 @@ import time
 from collections.abc import Generator, Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 from pydantic import Field
 
 from quadlab.configuration import Positive, StrictModel
 from quadlab.errors import MissingDependencyError, PoolError
 from quadlab.sweeps.cell import Cell, cells
+from quadlab.sweeps.interrupts import interrupts_later
 from quadlab.sweeps.limits import PoolConfig
 from quadlab.sweeps.progress import SweepProgress
-from quadlab.sweeps.trial_pool import SweepOutcome, SweepTrial, split_finished, unique_trials
+from quadlab.sweeps.slurm_queue import QueueWatch, cancel
+from quadlab.sweeps.trial_pool import SweepOutcome, SweepTrial, split_finished, unique_trials, without_old_results
 from quadlab.trials.config import RunOptions
 
 if TYPE_CHECKING:
     import submitit
+
+    Task: TypeAlias = tuple[submitit.Job[list[SweepOutcome]], Cell]
 
 POLL_S = 2.0  # [s] between two looks at the results
 QUEUE_POLL_S = 30.0  # [s] between two questions to SLURM
@@ -64,8 +68,11 @@ def run_on_slurm(
     Raises:
         MissingDependencyError: without submitit.
         PoolError: if SLURM refuses the job or is not there.
+        OSError: if an old result of a forced trial cannot be removed.
     """
-    finished, missing = split_finished(unique_trials(trials, progress), options)
+    unique = unique_trials(trials, progress)
+    options = without_old_results(unique, options)
+    finished, missing = split_finished(unique, options)
     work = cells(missing, slurm.trials_per_task, options, pool)
     progress.begin(len(finished) + len(missing), min(len(work), slurm.tasks_at_a_time))
     try:
@@ -85,26 +92,42 @@ def _outcomes(
 ) -> Generator[SweepOutcome, None, None]:
     if not work:
         return
-    waiting = _submit(work, folder, pool, slurm)
-    progress.notice(f"submitted {len(work)} tasks as job {waiting[0][0].job_id}; their output is in {folder}")
-    asked_s = time.monotonic()
+    waiting: list[Task] = []
     try:
-        while waiting:
-            for pair in [pair for pair in waiting if pair[0].done()]:
-                waiting.remove(pair)
-                yield from _answer(*pair)
-            if time.monotonic() - asked_s > QUEUE_POLL_S and waiting:
-                waiting[0][0].watcher.update()  # asks for all of them
-                asked_s = time.monotonic()
-            time.sleep(POLL_S)
+        with interrupts_later():  # what SLURM has taken is known, and can be cancelled
+            waiting = _submit(work, folder, pool, slurm)
+        array = _array(waiting[0])
+        progress.notice(f"submitted {len(work)} tasks as job {array}; their output is in {folder}")
+        yield from _answers(waiting, QueueWatch(array, progress))
     finally:
-        for job, _ in waiting:
-            job.cancel()
+        if waiting:
+            cancel(_array(waiting[0]), progress)
 
 
-def _submit(
-    work: Sequence[Cell], folder: Path, pool: PoolConfig, slurm: SlurmConfig
-) -> list[tuple["submitit.Job[list[SweepOutcome]]", Cell]]:
+def _answers(waiting: "list[Task]", watch: QueueWatch) -> Generator[SweepOutcome, None, None]:
+    """Yield outcomes as tasks end, and take those tasks off the list."""
+    asked_s = time.monotonic()
+    while waiting:
+        for task in [task for task in waiting if task[0].done()]:
+            waiting.remove(task)
+            yield from _answer(*task)
+        if time.monotonic() - asked_s > QUEUE_POLL_S and waiting:
+            waiting[0][0].watcher.update()  # asks for all of them
+            gone = watch.gone([job.job_id for job, _ in waiting])
+            asked_s = time.monotonic()
+            for task in [task for task in waiting if task[0].job_id in gone]:
+                waiting.remove(task)
+                yield from _lost(*task)
+        time.sleep(POLL_S)
+
+
+def _array(task: "Task") -> str:
+    """Return the number of the job that a task is part of."""
+    number, _, _ = task[0].job_id.partition("_")
+    return number
+
+
+def _submit(work: Sequence[Cell], folder: Path, pool: PoolConfig, slurm: SlurmConfig) -> "list[Task]":
     try:
         import submitit  # noqa: PLC0415
     except ImportError as error:
@@ -135,4 +158,8 @@ def _answer(job: "submitit.Job[list[SweepOutcome]]", cell: Cell) -> list[SweepOu
     try:
         return job.result()
     except UncompletedJobError:
-        return cell.lost(f"SLURM task {job.job_id} ended without an answer: {job.state}; see {job.paths.stderr}")
+        return _lost(job, cell)
+
+
+def _lost(job: "submitit.Job[list[SweepOutcome]]", cell: Cell) -> list[SweepOutcome]:
+    return cell.lost(f"SLURM task {job.job_id} ended without an answer: {job.state}; see {job.paths.stderr}")

@@ -12,7 +12,8 @@ from quadlab.sweeps.progress import SilentSweep, SweepProgress
 from quadlab.sweeps.warm_up import import_trials, warm_up, warm_up_trials
 from quadlab.trials.config import RunOptions, TrialConfig
 from quadlab.trials.identity import trial_id
-from quadlab.trials.job import JobOutcome, finished_before, record_failure, run_job, trial_directory
+from quadlab.trials.job import JobOutcome, finished_before, forget_trial, record_failure, run_job, trial_directory
+from quadlab.trials.lock import is_running
 from quadlab.trials.progress import SilentProgress
 
 
@@ -53,7 +54,7 @@ def run_trials(
 
     The results do not depend on the number of workers. A trial whose result is there already is not run again; of
     trials that are equal only the first is run. Whatever ends a worker becomes ``error.json`` in the trial's folder.
-    Leaving the loop early ends all workers.
+    Leaving the loop early ends all workers. With ``force`` old results go before anything runs.
 
     Args:
         trials: validated.
@@ -63,9 +64,11 @@ def run_trials(
 
     Raises:
         PoolError: if no process can be started.
+        OSError: if an old result cannot be removed.
     """
     shown = progress or SilentSweep()
     unique = unique_trials(trials, shown)
+    options = without_old_results(unique, options)
     shown.begin(len(unique), pool.worker_count)
     try:
         for outcome in _outcomes(unique, options, pool, shown):
@@ -76,14 +79,32 @@ def run_trials(
 
 
 def unique_trials(trials: Sequence[SweepTrial], progress: SweepProgress | None = None) -> list[SweepTrial]:
-    """Return the first of each set of equal trials, in the order given, and tell ``progress`` of the others."""
-    found: dict[str, SweepTrial] = {}
+    """Return the first of each set of equal trials, in the order given, and tell ``progress`` of the others.
+
+    Under another tag a trial is another one: it leaves its files elsewhere.
+    """
+    found: dict[tuple[str, str], SweepTrial] = {}
     for trial in trials:
-        found.setdefault(trial_id(trial.config), trial)
+        found.setdefault((trial.config.tag, trial_id(trial.config)), trial)
     equal = len(trials) - len(found)
     if progress and equal:
         progress.notice(f"{equal} trial{'s are' if equal > 1 else ' is'} equal to others and will be run once")
     return list(found.values())
+
+
+def without_old_results(trials: Sequence[SweepTrial], options: RunOptions) -> RunOptions:
+    """Remove what there is of ``trials`` if they are forced, and return options to run whatever has no result.
+
+    Of a result that is there later nobody needs to ask whether it is old: not when a worker or a machine dies, nor when
+    the sweep is interrupted and goes on.
+
+    Raises:
+        OSError: if something cannot be removed.
+    """
+    if options.force:
+        for trial in trials:
+            forget_trial(trial_directory(trial.config, options))
+    return options.model_copy(update={"force": False})
 
 
 def split_finished(trials: Sequence[SweepTrial], options: RunOptions) -> tuple[list[SweepOutcome], list[SweepTrial]]:
@@ -140,4 +161,11 @@ def _job(trial: SweepTrial, options: RunOptions, outcome: Outcome) -> JobOutcome
     if outcome.status is JobStatus.RETURNED:
         job: JobOutcome = outcome.value
         return job
+    if outcome.status is JobStatus.TIMED_OUT:  # perhaps it waited for another process that runs the same trial
+        before = _before(trial, options)
+        if before is not None:
+            return before
+        directory = trial_directory(trial.config, options)
+        if is_running(directory):
+            return JobOutcome(directory, None, failure=f"{outcome.reason}; another process runs the trial now")
     return record_failure(trial.config, options, outcome.status.value, outcome.reason, outcome.output)

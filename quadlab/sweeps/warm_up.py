@@ -8,6 +8,7 @@ from quadlab.errors import QuadlabError
 from quadlab.trials.compose import compose_trial
 from quadlab.trials.config import RunOptions, TrialConfig
 from quadlab.trials.job import run_job
+from quadlab.trials.manifest import note_code
 from quadlab.trials.progress import SilentProgress
 
 _STANDING = ("gait=stand", "gait.cycles.0.stride_duration_s=0.1", "command=in_place", "scenario=flat", "duration_s=0.1")
@@ -15,11 +16,13 @@ _TAKEN_FROM_STANDING = ("gait", "command", "scenario", "duration_s")
 
 
 def import_trials() -> None:
-    """Do nothing: what a trial needs was imported with this module."""
+    """Note of which code the process is: what a trial needs was imported with this module."""
+    note_code()
 
 
 def warm_up(trials: Sequence[TrialConfig]) -> None:
     """Run ``trials`` without keeping anything but what they loaded; what is wrong with them is not reported here."""
+    note_code()
     with tempfile.TemporaryDirectory(prefix="quadlab-warm-up-") as folder:
         options = RunOptions(force=True, results_dir=folder)
         for config in trials:

@@ -2,8 +2,14 @@
 
 import json
 import os
+import secrets
 from pathlib import Path
 from typing import Any
+
+
+def unfinished_path(path: Path, suffix: str = ".part") -> Path:
+    """Return where ``path`` is while it is being written: a name that no other process, machine or thread takes."""
+    return path.with_name(f"{path.name}.{os.getpid()}-{secrets.token_hex(4)}{suffix}")
 
 
 def write_text(path: Path, text: str) -> None:
@@ -14,7 +20,7 @@ def write_text(path: Path, text: str) -> None:
 def write_bytes(path: Path, content: bytes) -> None:
     """Write ``content`` to ``path`` in one step: either the old file is there or the whole new one."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.{os.getpid()}.part")
+    part = unfinished_path(path)
     try:
         with part.open("wb") as stream:
             stream.write(content)

@@ -16,6 +16,7 @@ from quadlab.trials.identity import trial_id
 from quadlab.trials.lock import running
 from quadlab.trials.manifest import MANIFEST_FILE, collect_manifest
 from quadlab.trials.progress import TrialProgress
+from quadlab.trials.recording.topics import LOG_FILE, PART_SUFFIX
 from quadlab.trials.result import RESULT_FILE, TrialResult, TrialStatus, read_result, write_result
 from quadlab.trials.runner import run_trial
 
@@ -105,20 +106,29 @@ def run_job(config: TrialConfig, options: RunOptions, progress: TrialProgress) -
     if before is not None:
         return before
     directory = trial_directory(config, options)
-    directory.mkdir(parents=True, exist_ok=True)
     with running(directory):
         return finished_before(config, options) or _run(config, directory, progress)
 
 
+def forget_trial(directory: Path) -> None:
+    """Remove result and log, if there are any: what a trial leaves from now on shall not stand beside older files."""
+    for name in (RESULT_FILE, LOG_FILE, LOG_FILE + PART_SUFFIX):
+        (directory / name).unlink(missing_ok=True)
+
+
 def _run(config: TrialConfig, directory: Path, progress: TrialProgress) -> JobOutcome:
-    (directory / RESULT_FILE).unlink(missing_ok=True)
+    forget_trial(directory)
     _write_config(config, directory)
-    result = None
-    with ErrorRecord(directory) as record, threadpool_limits(1):
-        write_json(directory / MANIFEST_FILE, collect_manifest(config))
-        result = run_trial(config, directory, progress)
-        write_result(directory, result)
-    progress.finish(TrialStatus.ERROR if result is None else result.status)
+    result: TrialResult | None = None
+    status = "interrupted"
+    try:
+        with ErrorRecord(directory) as record, threadpool_limits(1):
+            write_json(directory / MANIFEST_FILE, collect_manifest(config))
+            result = run_trial(config, directory, progress)
+            write_result(directory, result)
+        status = TrialStatus.ERROR if result is None else result.status
+    finally:
+        progress.finish(status)
     return JobOutcome(directory, result, failure=record.failure)
 
 

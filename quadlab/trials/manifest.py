@@ -28,6 +28,13 @@ _CODE = ("--", ".", ":(exclude)results", *(f":(exclude)paper_figures/**/*.{kind}
 _ENVIRONMENT = ("MUJOCO_GL", "PYTHONHASHSEED", "OPENBLAS_CORETYPE", "MKL_CBWR")
 
 
+def note_code() -> None:
+    """Keep for this process, and those forked from it, of which code it is: what was imported stays as it was then."""
+    git_state(checkout_dir())
+    lock_hash(checkout_dir())
+    installed_packages()
+
+
 def collect_manifest(config: TrialConfig) -> dict[str, Any]:
     """Return everything but the configuration that a trial's numbers depend on, ready for JSON.
 
@@ -58,10 +65,12 @@ def sha256(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
+@cache
 def git_state(root: Path | None) -> dict[str, Any] | None:
     """Return commit, whether the code differs from it, hash of the difference and untracked files.
 
-    Results and the figures that are drawn from them are no code: they change while they are made.
+    As of the first call in a process: a later commit changes nothing of what was imported. Results and the figures that
+    are drawn from them are no code: they change while they are made.
 
     Args:
         root: a source tree, or None for an installed wheel.
@@ -91,8 +100,9 @@ def _git(root: Path | None, *arguments: str) -> bytes | None:
         return None
 
 
+@cache
 def lock_hash(root: Path | None) -> str | None:
-    """Return the hash of ``uv.lock``, or None in an installed wheel."""
+    """Return the hash of ``uv.lock``, or None in an installed wheel; as of the first call in a process."""
     lock = (root or CONF_DIR) / "uv.lock"
     return sha256(lock.read_bytes()) if lock.is_file() else None
 

@@ -1,6 +1,11 @@
 """Status names what is missing, failed, half-written and stale; clean removes what never finished and nothing else."""
 
+import errno
+import fcntl
+import os
 import re
+import shutil
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -8,6 +13,7 @@ import yaml
 from synthetic_records import write_log
 from trial_folders import begin, fail, finish, options
 
+from quadlab import sweep_commands
 from quadlab.analysis import inventory, yaml_text
 from quadlab.analysis import sweep_status as status_module
 from quadlab.analysis.clean import find_litter
@@ -69,9 +75,24 @@ def test_what_a_tag_lacks_its_parent_lacks_too(
     assert main(["status", str(tmp_path / "two")]) == 1
     assert main(["status", str(tmp_path)]) == 1
     shown = capsys.readouterr().out
-    assert shown.count("2 asked for") == 2
+    assert "2 asked for" in shown
+    assert "3 asked for" in shown
     assert shown.count("  missing  ") == 2
     assert "  stale         one/" in shown
+
+
+def test_trial_that_only_another_tag_has_is_missing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(status_module, "git_state", lambda _: None)
+    for tag in ("one", "two"):
+        _record(tmp_path, tag, 0)
+    name = finish(tmp_path, "seed=0", "tag=one").name
+    assert main(["status", str(tmp_path)]) == 1
+    first, missing, record = capsys.readouterr().out.splitlines()
+    assert first.endswith("2 asked for, 1 finished (1 completed), 1 missing")
+    assert missing == f"  missing       two/{name} (seed=0)"
+    assert record.startswith(f"  {tmp_path}/two/sweeps/")
 
 
 @pytest.mark.parametrize("inside", ["", "tag/sweeps", "tag/0123456789abcdef"])
@@ -161,6 +182,50 @@ def test_clean_keeps_a_recovered_log(tmp_path: Path, capsys: pytest.CaptureFixtu
     capsys.readouterr()
     assert main(["clean", str(tmp_path), "--yes"]) == 0
     assert capsys.readouterr().out == f"{tmp_path}: nothing that never finished\n"
+
+
+def test_clean_leaves_what_runs_or_has_changed_since_it_asked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    runs, finished, noted, gone, dead = (begin(tmp_path, f"seed={seed}")[0] for seed in range(5))
+    kept = [*runs.iterdir(), *finished.iterdir()]
+    with ExitStack() as stack:
+
+        def meanwhile(*_: object) -> bool:
+            stack.enter_context(running(runs))
+            shutil.copy(finish(tmp_path / "elsewhere", "seed=1") / "result.json", finished)
+            (noted / "notes.txt").touch()
+            shutil.rmtree(gone)
+            return True
+
+        monkeypatch.setattr(sweep_commands, "_confirmed", meanwhile)
+        assert main(["clean", str(tmp_path)]) == 0
+        left = [line for line in capsys.readouterr().out.splitlines() if line.startswith("left ")]
+        assert sorted(left) == sorted(
+            [
+                f"left {runs}: a process runs it now",
+                f"left {finished}: it has changed meanwhile",
+                f"left {noted}: it has changed meanwhile",
+            ]
+        )
+    assert all(path.exists() for path in kept)
+    assert not dead.exists()
+
+
+def test_clean_without_locks_leaves_what_may_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def no_locks(*_: object) -> None:
+        raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
+
+    monkeypatch.setattr(fcntl, "flock", no_locks)
+    (may_run, _), (dead, _) = begin(tmp_path, "seed=0"), begin(tmp_path, "seed=1")
+    (may_run / ".lock").touch()
+    before = sorted(may_run.iterdir())
+    assert main(["clean", str(tmp_path), "--yes"]) == 0
+    assert f"left {may_run}: no locks on its file system, and .lock says that it may run" in capsys.readouterr().out
+    assert sorted(may_run.iterdir()) == before
+    assert not dead.exists()
 
 
 def test_clean_leaves_what_somebody_else_put_there(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
-"""sbatch, srun, sacct and scancel of a cluster that is this machine: run as ``fake_slurm.py <command> arguments``.
+"""sbatch, srun, sacct, squeue and scancel of a cluster that is this machine: ``fake_slurm.py <command> arguments``.
 
-State lives in the folder FAKE_SLURM; the task FAKE_SLURM_KILL of an array is killed when it starts.
+State lives in the folder FAKE_SLURM; the task FAKE_SLURM_KILL of an array is killed when it starts, and then in the
+state FAKE_SLURM_KILLED, FAILED by default. The commands listed in FAKE_SLURM_BROKEN fail.
 """
 
 import os
@@ -30,13 +31,15 @@ def sbatch(script: str) -> None:
 def task(script: str, number: str) -> None:
     """Run one task as a node would and note how it ended."""
     state = STATE / _name(number)
+    if state.read_text() == "CANCELLED":
+        return
     state.write_text(f"RUNNING {os.getpid()}")
     array = {"SLURM_ARRAY_JOB_ID": JOB, "SLURM_ARRAY_TASK_ID": number} if number else {}
     one = dict.fromkeys(("SLURM_NTASKS", "SLURM_JOB_NUM_NODES"), "1")
     zero = dict.fromkeys(("SLURM_PROCID", "SLURM_LOCALID", "SLURM_NODEID"), "0")
     node = {"SLURM_JOB_ID": JOB, "SLURM_JOB_NODELIST": "localhost", **array, **one, **zero}
     code = subprocess.run(["bash", script], env={**os.environ, **node}, check=False).returncode
-    state.write_text("FAILED" if code else "COMPLETED")
+    state.write_text(os.environ.get("FAKE_SLURM_KILLED", "FAILED") if code else "COMPLETED")
 
 
 def srun(*arguments: str) -> None:
@@ -50,17 +53,28 @@ def srun(*arguments: str) -> None:
 
 
 def sacct(*_: str) -> None:
-    """Print the state of all tasks."""
-    lines = [f"{path.name}|{path.read_text().split()[0]}|localhost" for path in STATE.glob(f"{JOB}*")]
+    """Print the state of all tasks as accounting does."""
+    lines = [f"{task}|{state}|localhost" for task, state in _states()]
     sys.stdout.write("\n".join(["JobID|State|NodeList", *lines]) + "\n")
 
 
+def squeue(*_: str) -> None:
+    """Print the state of all tasks as the scheduler does."""
+    sys.stdout.writelines(f"{task} {state}\n" for task, state in _states())
+
+
 def scancel(job: str, *_: str) -> None:
-    """Kill a task and all that it started."""
-    words = (STATE / job).read_text().split()
-    (STATE / job).write_text("CANCELLED")
-    if words[0] == "RUNNING":
-        os.killpg(int(words[1]), signal.SIGKILL)
+    """Kill the tasks of a job that wait or run and all that they started."""
+    for path in STATE.glob(f"{job}*"):
+        words = path.read_text().split()
+        if words[0] in ("PENDING", "RUNNING"):
+            path.write_text("CANCELLED")
+        if words[0] == "RUNNING":
+            os.killpg(int(words[1]), signal.SIGKILL)
+
+
+def _states() -> list[tuple[str, str]]:
+    return [(path.name, path.read_text().split()[0]) for path in STATE.glob(f"{JOB}*")]
 
 
 def _name(number: str) -> str:
@@ -68,9 +82,11 @@ def _name(number: str) -> str:
 
 
 COMMANDS: dict[str, Callable[..., None]] = {
-    command.__name__: command for command in (sbatch, task, srun, sacct, scancel)
+    command.__name__: command for command in (sbatch, task, srun, sacct, squeue, scancel)
 }
 
 if __name__ == "__main__":
     STATE = Path(os.environ["FAKE_SLURM"])
+    if sys.argv[1] in os.environ.get("FAKE_SLURM_BROKEN", "").split():
+        sys.exit("slurm_load_jobs error: Unable to contact slurm controller")
     COMMANDS[sys.argv[1]](*sys.argv[2:])

@@ -175,9 +175,10 @@ def test_trial_that_fails_is_exit_code_1_and_the_others_have_results(
     assert len(list(tmp_path.rglob("error.json"))) == 1
 
 
-def test_interrupt_ends_the_sweep_with_130(tmp_path: Path) -> None:
+@pytest.mark.parametrize("force", [[], ["force=true"]], ids=["", "forced"])
+def test_interrupt_ends_the_sweep_with_130_and_says_how_to_go_on(tmp_path: Path, force: list[str]) -> None:
     heeds = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "  # a background job ignores it
-    command = [sys.executable, "-c", heeds + ENTRY, "-m", *STANDING, "duration_s=100", "seed=0,1"]
+    command = [sys.executable, "-c", heeds + ENTRY, "-m", *STANDING, "duration_s=100", "seed=0,1", *force]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 120.0
     while len(list(tmp_path.rglob("trial.mcap.part"))) < 2 and time.monotonic() < deadline:
@@ -185,5 +186,6 @@ def test_interrupt_ends_the_sweep_with_130(tmp_path: Path) -> None:
     process.send_signal(signal.SIGINT)
     _, shown = process.communicate(timeout=30.0)
     assert process.returncode == 130
-    assert shown.endswith("quadlab: interrupted; the same command goes on where it stopped\n")
+    how = " without force=true" if force else ""
+    assert shown.endswith(f"quadlab: interrupted; the same command{how} goes on where it stopped\n")
     assert "Traceback" not in shown

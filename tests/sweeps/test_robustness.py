@@ -1,6 +1,7 @@
 """Whatever happens to processes, disks and files: a clear line, nothing lost, nothing half-written read as whole."""
 
 import errno
+import fcntl
 import json
 import multiprocessing
 import os
@@ -100,6 +101,54 @@ def test_lock_of_a_process_that_died_holds_nobody_up(tmp_path: Path) -> None:
     assert not is_running(tmp_path)
     with running(tmp_path):
         assert is_running(tmp_path)
+
+
+def test_who_only_looks_needs_no_write_access_and_disturbs_nobody_who_looks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / ".lock").touch()
+    opened = os.open
+
+    def read_only(path: Path, how: int, *mode: int) -> int:
+        assert not how & (os.O_RDWR | os.O_WRONLY)
+        return opened(path, how, *mode)
+
+    with (tmp_path / ".lock").open("rb") as other:
+        fcntl.flock(other, fcntl.LOCK_SH)
+        monkeypatch.setattr(os, "open", read_only)
+        assert not is_running(tmp_path)
+
+
+def test_directory_that_is_removed_before_it_is_held_is_made_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    directory, opened = tmp_path / "trial", os.open
+
+    def remove_first(path: Path, *how: int) -> int:
+        monkeypatch.setattr(os, "open", opened)
+        directory.rmdir()
+        return opened(path, *how)
+
+    monkeypatch.setattr(os, "open", remove_first)
+    with running(directory):
+        assert is_running(directory)
+
+
+def test_lock_of_another_process_is_not_removed_with_the_own(tmp_path: Path) -> None:
+    with running(tmp_path):
+        (tmp_path / ".lock").unlink()
+        (tmp_path / ".lock").touch()
+    assert (tmp_path / ".lock").exists()
+
+
+def test_equal_process_ids_on_two_machines_do_not_write_one_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    used: list[object] = []
+    monkeypatch.setattr(os, "replace", lambda part, _: used.append(part))
+    for _ in range(2):
+        write_json(tmp_path / RESULT_FILE, {})
+    assert len(set(used)) == 2
 
 
 def test_half_written_result_is_never_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

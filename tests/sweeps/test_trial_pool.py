@@ -2,15 +2,21 @@
 
 import io
 import json
+from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 from sweep_cases import FREE, run, standing
 
+from quadlab.sweeps.options import Shard
 from quadlab.sweeps.terminal import PlainSweep
 from quadlab.sweeps.trial_pool import SweepTrial, run_trials, unique_trials
-from quadlab.trials.config import RunOptions
+from quadlab.sweeps.warm_up import import_trials, warm_up
+from quadlab.trials import manifest as manifest_module
+from quadlab.trials.config import RunOptions, TrialConfig
 from quadlab.trials.job import run_job, trial_directory
+from quadlab.trials.lock import running
 from quadlab.trials.progress import SilentProgress
 from quadlab.trials.result import RESULT_FILE
 
@@ -40,6 +46,36 @@ def test_finished_trials_are_not_run_again_and_equal_ones_are_run_once(tmp_path:
     assert log.stat().st_mtime_ns == written
 
 
+def test_forced_sweep_that_was_left_goes_on_without_force(tmp_path: Path) -> None:
+    trials = standing(2)
+    run(trials, tmp_path)
+    forced = RunOptions(force=True, results_dir=str(tmp_path))
+    with closing(run_trials(trials, forced, FREE.model_copy(update={"workers": 1}))) as outcomes:
+        assert not next(outcomes).job.skipped
+    (done,) = (path.parent.name for path in tmp_path.rglob(RESULT_FILE))
+    again = run(trials, tmp_path)
+    assert {job.directory.name: job.skipped for job in again.values()}[done]
+    assert [job.skipped for job in again.values()].count(True) == 1
+
+
+def test_same_trial_under_two_tags_is_run_for_both(tmp_path: Path) -> None:
+    trials = [standing(1, f"tag={tag}")[0] for tag in ("a", "b")]
+    assert unique_trials(trials) == trials
+    halves = [Shard.model_validate(f"{number}/2") for number in range(2)]
+    parts = [part.of(trials) for part in halves]
+    assert [part.of(trials[::-1]) for part in halves] == parts
+    assert sorted(trial.config.tag for part in parts for trial in part) == ["a", "b"]
+
+
+def test_trial_that_waits_for_another_process_is_no_failure_of_its_own(tmp_path: Path) -> None:
+    trials, limited = standing(1), FREE.model_copy(update={"time_limit_s": 2.0})
+    options = RunOptions(force=False, results_dir=str(tmp_path))
+    with running(trial_directory(trials[0].config, options)):
+        job = run(trials, tmp_path, limited)["seed=0"]
+    assert str(job.failure) == "ran longer than 2 s; another process runs the trial now"
+    assert not list(tmp_path.rglob("error.json"))
+
+
 def test_equal_trials_are_said_to_be_run_once() -> None:
     stream = io.StringIO()
     trials = standing(2)
@@ -47,6 +83,25 @@ def test_equal_trials_are_said_to_be_run_once() -> None:
     assert "2 trials are equal to others and will be run once" in stream.getvalue()
     assert unique_trials(trials, PlainSweep(stream)) == trials
     assert stream.getvalue().count("equal") == 1
+
+
+@pytest.mark.parametrize("preload", [import_trials, lambda: warm_up(())], ids=["importing", "warming up"])
+def test_trials_name_the_code_that_was_loaded_whatever_is_committed_meanwhile(
+    preload: Callable[[], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    config = standing(1)[0].config
+    loaded = _code_of(config)
+    manifest_module.git_state.cache_clear()
+    manifest_module.lock_hash.cache_clear()
+    preload()
+    monkeypatch.setattr(manifest_module, "_git", lambda *_: b"0" * 40)
+    monkeypatch.setattr(manifest_module, "sha256", lambda _: "0" * 64)
+    assert _code_of(config) == loaded
+
+
+def _code_of(config: TrialConfig) -> list[object]:
+    found = manifest_module.collect_manifest(config)
+    return [found["git"], found["lock_sha256"]]
 
 
 def test_trial_that_takes_too_long_leaves_its_reason_and_no_result(tmp_path: Path) -> None:

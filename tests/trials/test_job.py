@@ -1,5 +1,6 @@
 """What a job leaves behind, when it is skipped, and what an exception turns into."""
 
+import io
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -7,14 +8,15 @@ from pathlib import Path
 import pytest
 import yaml
 
-from quadlab.errors import QuadlabError, RobotDescriptionError
+from quadlab.analysis.trial_directory import find_log
+from quadlab.errors import LogError, QuadlabError, RobotDescriptionError
 from quadlab.trials import job as job_module
 from quadlab.trials.compose import compose_document, compose_trial, split_document
 from quadlab.trials.config import TrialConfig
 from quadlab.trials.identity import trial_id
 from quadlab.trials.job import JobOutcome, run_job
 from quadlab.trials.main import main
-from quadlab.trials.progress import SilentProgress, TrialProgress
+from quadlab.trials.progress import SilentProgress, TrialProgress, terminal_progress
 from quadlab.trials.report import job_report
 from quadlab.trials.result import TrialResult, TrialStatus
 
@@ -139,6 +141,40 @@ def test_forced_run_that_fails_leaves_no_old_result(tmp_path: Path, monkeypatch:
     monkeypatch.setattr(job_module, "run_trial", fail)
     assert _run(tmp_path, "seed=13", "force=true").failure
     assert not (directory / "result.json").exists()
+
+
+def test_rerun_leaves_no_log_of_the_run_before(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(job_module, "run_trial", lambda config, *_: _result_of(config))
+    directory = _run(tmp_path).directory
+    for name in ("trial.mcap", "trial.mcap.part", "trial.recovered.mcap"):
+        (directory / name).write_text("of the first run")
+    unplanned = TrialStatus.PLANNING_FAILED
+    monkeypatch.setattr(job_module, "run_trial", lambda config, *_: _result_of(config, unplanned))
+    _run(tmp_path, "force=true")
+    with pytest.raises(LogError, match="nothing was recorded: planning_failed"):
+        find_log(directory)
+    assert (directory / "trial.recovered.mcap").is_file()
+
+
+class _Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_interrupted_trial_gives_the_cursor_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(_: TrialConfig, __: Path, progress: TrialProgress) -> TrialResult:
+        progress.start("anymal_b trot", 2.0)
+        raise KeyboardInterrupt
+
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(job_module, "run_trial", interrupt)
+    stream = _Terminal()
+    config, options = split_document(compose_document([f"results_dir={tmp_path}"]))
+    with pytest.raises(KeyboardInterrupt):
+        run_job(config, options, terminal_progress(stream))
+    shown, hidden = "\x1b[?25h", "\x1b[?25l"
+    assert stream.getvalue().rfind(shown) > stream.getvalue().rfind(hidden) >= 0
+    assert "interrupted" in stream.getvalue()
 
 
 def test_mistake_of_the_user_is_no_program_failure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -36,17 +36,17 @@ def _git(folder: Path, *arguments: str) -> None:
 
 
 def test_git_state_sees_commit_changes_and_new_files(tmp_path: Path) -> None:
-    assert git_state(tmp_path) is None
+    assert git_state.__wrapped__(tmp_path) is None
     _git(tmp_path, "init", "-q")
     (tmp_path / "code.py").write_text("a = 1\n")
     _git(tmp_path, "add", "code.py")
     _git(tmp_path, "commit", "-q", "-m", "first")
-    clean = git_state(tmp_path)
+    clean = git_state.__wrapped__(tmp_path)
     assert clean is not None
     assert (len(clean["commit"]), clean["dirty"], clean["diff_sha256"]) == (40, False, None)
     (tmp_path / "code.py").write_text("a = 2\n")
     (tmp_path / "new.py").write_text("")
-    changed = git_state(tmp_path)
+    changed = git_state.__wrapped__(tmp_path)
     assert changed is not None
     assert changed["dirty"]
     assert len(changed["diff_sha256"]) == 64
@@ -58,6 +58,6 @@ def test_git_state_outside_a_source_tree() -> None:
 
 
 def test_lock_hash(tmp_path: Path) -> None:
-    assert lock_hash(tmp_path) is None
+    assert lock_hash.__wrapped__(tmp_path) is None
     (tmp_path / "uv.lock").write_bytes(b"locked")
-    assert lock_hash(tmp_path) == sha256(b"locked")
+    assert lock_hash.__wrapped__(tmp_path) == sha256(b"locked")

@@ -63,8 +63,10 @@ class LogFile:
         self._stream.flush()
 
     def finish(self) -> None:
-        """Write index and summary, and give the file its final name (an older file of that name is replaced)."""
+        """Write index and summary to the disk, and give the file its final name, which an older one loses."""
         self._writer.finish()
+        self._stream.flush()
+        os.fsync(self._stream.fileno())  # the result, which follows, says that the log is whole
         self._stream.close()
         os.replace(self._unfinished, self._path)
 

@@ -1,6 +1,5 @@
 """Making a proper log of one that was cut short by a crash."""
 
-import os
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from mcap.stream_reader import CRCValidationError, StreamReader
 from zstandard import ZstdError
 
 from quadlab.errors import LogError
+from quadlab.trials.files import unfinished_path
 from quadlab.trials.recording.log_file import NANOSECONDS, LogFile
 from quadlab.trials.recording.topics import PART_SUFFIX
 
@@ -49,8 +49,7 @@ def recover_log(part: Path, target: Path) -> RecoveryReport:
     with part.open("rb") as stream:
         records = StreamReader(_WholeReads(stream), validate_crcs=True, record_size_limit=part.stat().st_size).records
         profile = _profile_of(records, part)
-        unfinished = target.with_name(f"{target.name}.{os.getpid()}.recovering")
-        file = LogFile(target, unfinished, _CHUNK_SIZE, profile)
+        file = LogFile(target, unfinished_path(target, ".recovering"), _CHUNK_SIZE, profile)
         report = _copy(records, file)
     file.finish()
     return report

@@ -1,5 +1,6 @@
 """What a trial log promises to the tools that open it."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -50,6 +51,18 @@ def test_log_has_its_name_only_when_it_is_complete(tmp_path: Path) -> None:
     log.close()
     assert path.exists()
     assert not part_path(path).exists()
+
+
+def test_log_is_on_the_disk_before_it_has_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    synced: list[int] = []
+
+    def note(descriptor: int) -> None:
+        assert not (tmp_path / "trial.mcap").exists()
+        synced.append(os.fstat(descriptor).st_size)
+
+    monkeypatch.setattr(os, "fsync", note)
+    log = write_log(tmp_path / "trial.mcap", ticks=3)
+    assert synced == [log.stat().st_size]
 
 
 def test_an_exception_leaves_the_part_file(tmp_path: Path) -> None:
