@@ -11,6 +11,7 @@ from quadlab.studies.worker import do_work, warm_up_works
 from quadlab.sweeps.job import Event, Job, JobStatus, Notice, Outcome
 from quadlab.sweeps.limits import PoolConfig
 from quadlab.sweeps.pool import NO_PRELOAD, run_pool
+from quadlab.trials.manifest import note_code
 from quadlab.trials.result import TrialStatus
 
 
@@ -35,6 +36,7 @@ class JobQueue:
 
 def work_off(waiting: deque[PendingJob], workers: int, progress: StudyProgress) -> None:
     """Do all jobs, which were checked, each followed by what its search asks for next."""
+    note_code()
     first = {(study.name, condition.levels_of_parts): study.work(job) for study, condition, job in reversed(waiting)}
     preloads = (Job("warming up", warm_up_works, (list(first.values()),)), NO_PRELOAD)
     queue = JobQueue(waiting)
