@@ -16,7 +16,6 @@ from quadlab.plotting.intervals import intervals_where
 from quadlab.plotting.style import COLUMN_WIDTH, MEASURED, REFERENCE, SERIES, paper_style
 from quadlab.robots.legs import LEGS
 from quadlab.studies.config import load_study
-from quadlab.trials.compose import compose_trial
 
 STUDY, WALK, TROT = "gehring2017_trot_plank", "gehring2017_walk_push", "gehring2017_trot"
 CAPTION = (
@@ -142,6 +141,8 @@ def same_settings() -> Claim:
 
 
 def _settings(study: str) -> dict[str, object]:
+    from quadlab.trials.compose import compose_trial  # noqa: PLC0415 - loads what trials need
+
     config = compose_trial(load_study(study).blocks[0].overrides)
     chosen = config.model_dump(mode="json", include={"planner", "controller"})
     return dict(_leaves(chosen, ""))
