@@ -27,4 +27,4 @@ def known_limits(results: StudyResults, study: str, columns: Sequence[str] = ())
 
 def limit_text(value: float, digits: int) -> str:
     """Return the limit in words: one of zero is that not even the smallest value tried was survived."""
-    return f"{value:.{digits}f}" if value > 0.0 else "none tried"
+    return f"{value:.{digits}f}" if value > 0.0 else "none"

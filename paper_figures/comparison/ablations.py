@@ -119,9 +119,9 @@ def _both(row: "pd.Series[float]", digits: int) -> str:
 
 
 def _unsolved(results: StudyResults) -> dict[str, str]:
-    """Return a sentence for each variant in whose trials the solver often found nothing."""
+    """Return a sentence for each variant in whose median trial the solver did not always find a solution."""
     medians = results.table(STUDY).groupby("variant")["control_fallbacks"].median()
     return {
-        str(name): f"In half of its trials {ticks:.0f} ticks or more have no solution: torques stay as they were."
+        str(name): f"Ticks without a solution, in which torques stay as they were: {ticks:.0f} in the median trial."
         for name, ticks in medians[medians >= 1.0].items()
     }

@@ -166,8 +166,8 @@ def row_of(factor: str, name: str, measure: Measure, rows: pd.DataFrame) -> dict
     first, second = wide[levels[0]].to_numpy(float), wide[levels[1]].to_numpy(float)
     difference = paired_mean_difference(first, second)
     to_percent = 1.0 if measure.column == COMPLETED else 100.0 / first.mean()
-    differing = wide[first != second].reset_index()
-    kinds = [f"{disturbance}, {gait}" for disturbance, gait in differing[["disturbance", "gait"]].to_numpy()]
+    kinds = wide.index.to_frame()[["disturbance", "gait"]].agg(", ".join, axis=1)
+    differing = kinds[first != second]
     return {
         "factor": factor,
         "measure": name,
@@ -183,7 +183,7 @@ def row_of(factor: str, name: str, measure: Measure, rows: pd.DataFrame) -> dict
         "probability": sign_flip_probability(first, second),
         "larger_is_better": measure.larger_is_better,
         "differing": len(differing),
-        "only_in": kinds[0] if len(set(kinds)) == 1 and len(kinds) < len(wide) else "",
+        "only_in": differing.iloc[0] if differing.nunique() == 1 < kinds.nunique() else "",
         "not_monotone": int((rows["monotone"] == False).sum()) if measure.searched else 0,  # noqa: E712 - or missing
     }
 
