@@ -3,6 +3,7 @@
 from collections.abc import Generator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
+from pathlib import Path
 
 from quadlab.errors import LogError
 from quadlab.sweeps.job import Event, Job, JobStatus, Notice, Outcome, Started
@@ -13,7 +14,7 @@ from quadlab.sweeps.warm_up import import_trials, warm_up, warm_up_trials
 from quadlab.trials.config import RunOptions, TrialConfig
 from quadlab.trials.identity import trial_id
 from quadlab.trials.job import JobOutcome, finished_before, forget_trial, record_failure, run_job, trial_directory
-from quadlab.trials.lock import is_running
+from quadlab.trials.lock import held_now, is_running
 from quadlab.trials.progress import SilentProgress
 
 
@@ -96,15 +97,22 @@ def without_old_results(trials: Sequence[SweepTrial], options: RunOptions) -> Ru
     """Remove what there is of ``trials`` if they are forced, and return options to run whatever has no result.
 
     Of a result that is there later nobody needs to ask whether it is old: not when a worker or a machine dies, nor when
-    the sweep is interrupted and goes on.
+    the sweep is interrupted and goes on. A trial that another process runs now is left to it: its result will be new.
 
     Raises:
         OSError: if something cannot be removed.
     """
     if options.force:
-        for trial in trials:
-            forget_trial(trial_directory(trial.config, options))
+        for directory in (trial_directory(trial.config, options) for trial in trials):
+            if directory.is_dir():
+                _forget_unless_running(directory)
     return options.model_copy(update={"force": False})
+
+
+def _forget_unless_running(directory: Path) -> None:
+    with held_now(directory) as busy:
+        if busy is None or not is_running(directory):  # a file system without locks cannot tell
+            forget_trial(directory)
 
 
 def split_finished(trials: Sequence[SweepTrial], options: RunOptions) -> tuple[list[SweepOutcome], list[SweepTrial]]:

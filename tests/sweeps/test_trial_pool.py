@@ -11,7 +11,7 @@ from sweep_cases import FREE, run, standing
 
 from quadlab.sweeps.options import Shard
 from quadlab.sweeps.terminal import PlainSweep
-from quadlab.sweeps.trial_pool import SweepTrial, run_trials, unique_trials
+from quadlab.sweeps.trial_pool import SweepTrial, run_trials, unique_trials, without_old_results
 from quadlab.sweeps.warm_up import import_trials, warm_up
 from quadlab.trials import manifest as manifest_module
 from quadlab.trials.config import RunOptions, TrialConfig
@@ -44,6 +44,20 @@ def test_finished_trials_are_not_run_again_and_equal_ones_are_run_once(tmp_path:
     assert not first["seed=0"].skipped
     assert {name: job.skipped for name, job in again.items()} == {"seed=0": True, "seed=1": False}
     assert log.stat().st_mtime_ns == written
+
+
+def test_forced_sweep_leaves_a_trial_to_the_process_that_runs_it(tmp_path: Path) -> None:
+    """Its unfinished log must not be taken away from under it; its result will be new."""
+    (trial,) = standing(1)
+    forced = RunOptions(force=True, results_dir=str(tmp_path))
+    directory = trial_directory(trial.config, forced)
+    with running(directory):
+        part = directory / "trial.mcap.part"
+        part.touch()
+        without_old_results([trial], forced)
+        assert part.exists()
+    without_old_results([trial], forced)
+    assert not part.exists()
 
 
 def test_forced_sweep_that_was_left_goes_on_without_force(tmp_path: Path) -> None:
