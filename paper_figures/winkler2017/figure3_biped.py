@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from scipy.spatial import ConvexHull
 
+from paper_figures.winkler2017.figure2_trot_overview import ENFORCED
 from quadlab.analysis.artefact import Artefact, Claim, verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.geometry.rotations import Array, rotation_2d
@@ -23,7 +24,6 @@ CAPTION = (
 ARTEFACT = Artefact("W-F3", "Winkler 2017, Fig. 3", "A biped with feet that have an area", (STUDY,), CAPTION)
 FEET = ("left", "right")
 INSIDE_MM = 0.1
-ENFORCED = "Enforced by the planner, confirmed by the checker."
 SHOWN_S = 0.7
 """Time in [s], in the second double support, whose range of motion is drawn; a dot is the CoM then."""
 

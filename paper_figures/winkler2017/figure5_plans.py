@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from paper_figures.winkler2017.figure2_trot_overview import ENFORCED
 from quadlab.analysis.artefact import Artefact, Claim, verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.geometry.rotations import Array
@@ -133,8 +134,5 @@ def near_claim(plan: PlacedPlan) -> Claim:
 def _inside(plans: Iterable[MotionPlan]) -> Claim:
     """Return how far the CoP leaves the support areas, as the independent checker finds on its dense grid."""
     worst = max(plan.verdict.values["cop_outside_mm"] for plan in plans)  # noqa: PD011 - no table
-    text, why = (
-        "CoP inside every support area: farthest outside [mm]",
-        "Enforced by the planner, confirmed by the checker.",
-    )
-    return Claim(text, "inside", f"{worst:.1g}, four gaits", verdict(holds=worst < INSIDE_MM), why)
+    text = "CoP inside every support area: farthest outside [mm]"
+    return Claim(text, "inside", f"{worst:.1g}, four gaits", verdict(holds=worst < INSIDE_MM), ENFORCED)
