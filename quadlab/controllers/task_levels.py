@@ -57,10 +57,16 @@ def _validate(value: Any) -> StrictModel:
     return config
 
 
-TaskConfig = Annotated[
-    StrictModel, PlainValidator(_validate), PlainSerializer(lambda config: config.model_dump(), return_type=dict)
-]
-"""The configuration of any registered task, chosen by its key ``task``."""
+def _dump(config: StrictModel) -> dict[str, Any]:
+    return config.model_dump(exclude_defaults=True)
+
+
+TaskConfig = Annotated[StrictModel, PlainValidator(_validate), PlainSerializer(_dump, return_type=dict)]
+"""The configuration of any registered task, chosen by its key ``task``.
+
+Options that have their default are not written: a new option of a task leaves the identity of trials as it is that know
+nothing of it.
+"""
 
 
 class LevelConfig(StrictModel):

@@ -10,12 +10,13 @@ import numpy as np
 from quadlab import geometry
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
+from quadlab.controllers.tasks.control_frame import NORMAL_ROW, Frame, FramedGains, write_turned_rows
 from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
 from quadlab.controllers.tasks.task import TaskRows, Variable, empty_equation, equation
 from quadlab.geometry.rotation_error import error_below_half_turn, rotation_error
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry, source_fingerprint
-from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
+from quadlab.robots.kinematics import BASE_ANGULAR, VELOCITY_SIZE, Kinematics
 
 
 def _write_angular_target(
@@ -65,9 +66,9 @@ _target_below_half_turn = _compile_target(
 
 @register("task", "base_yaw")
 class BaseYawTask:
-    """Rotation of the base about the vertical."""
+    """Rotation of the base about the vertical, or about the normal of the ground."""
 
-    class Config(TrackingGains):
+    class Config(FramedGains):
         """Gains of the yaw motion."""
 
         task: Literal["base_yaw"]
@@ -76,18 +77,22 @@ class BaseYawTask:
         self.config = config
         self._target = np.empty(3)
         self._vertical_target = self._target[2:]
+        self._turned = empty_equation(Variable.ACCELERATION, 1, VELOCITY_SIZE)
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return one row in accelerations."""
         _write_angular_target(self.config, kinematics, reference, self._target)
+        if self.config.frame is Frame.CONTROL:
+            _turn_into_control_frame(kinematics, reference, NORMAL_ROW, self._target, self._turned)
+            return self._turned
         return equation(Variable.ACCELERATION, kinematics.base_jacobian[5:], self._vertical_target)
 
 
 @register("task", "base_roll_pitch")
 class BaseRollPitchTask:
-    """Rotation of the base about the two horizontal axes of its heading frame."""
+    """Rotation of the base about both horizontal axes of its heading frame, or heading and lateral of the ground."""
 
-    class Config(TrackingGains):
+    class Config(FramedGains):
         """Gains of the roll and pitch motion."""
 
         task: Literal["base_roll_pitch"]
@@ -100,10 +105,21 @@ class BaseRollPitchTask:
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
         _write_angular_target(self.config, kinematics, reference, self._target)
+        if self.config.frame is Frame.CONTROL:
+            _turn_into_control_frame(kinematics, reference, 0, self._target, self._rows)
+            return self._rows
         _turn_into_heading_frame(
             kinematics.base_rotation, kinematics.base_jacobian, self._target, self._rows.matrix, self._rows.upper
         )
         return self._rows
+
+
+def _turn_into_control_frame(
+    kinematics: Kinematics, reference: ControlReference, first: int, target: Array, rows: TaskRows
+) -> None:
+    """Write the rotation about the axes of the control frame from number ``first`` on to ``rows``."""
+    jacobian = kinematics.base_jacobian[BASE_ANGULAR]
+    write_turned_rows(reference.ground_axes, first, jacobian, target, (rows.matrix, rows.upper))
 
 
 @compiled_entry

@@ -4,7 +4,8 @@ from typing import Literal
 
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.gains import TrackingGains, write_tracking_rows
+from quadlab.controllers.tasks.control_frame import Frame, FramedGains, follow_base_over_ground
+from quadlab.controllers.tasks.gains import write_tracking_rows
 from quadlab.controllers.tasks.task import TaskRows, Variable, empty_equation
 from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 
@@ -13,10 +14,11 @@ from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 class BasePositionTask:
     """J_B,xy u_dot = r_ddot_ref + K_D (r_dot_ref - r_dot) + K_P (r_ref - r) - J_dot u.
 
-    In world axes. The height has a task of its own, so that its gains can differ as in the paper's control frame.
+    The two axes are those of the world, or heading and lateral of the ground. The height has a task of its own, so that
+    its gains can differ as in the paper.
     """
 
-    class Config(TrackingGains):
+    class Config(FramedGains):
         """Gains of the horizontal base motion."""
 
         task: Literal["base_position"]
@@ -27,6 +29,9 @@ class BasePositionTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
+        if self.config.frame is Frame.CONTROL:
+            follow_base_over_ground(self.config, kinematics, reference, 0, self._rows)
+            return self._rows
         write_tracking_rows(
             self.config.proportional_per_s2,
             self.config.derivative_per_s,

@@ -4,7 +4,8 @@ from typing import Literal
 
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.gains import TrackingGains, write_tracking_rows
+from quadlab.controllers.tasks.control_frame import Frame, FramedGains, write_motion_over_ground
+from quadlab.controllers.tasks.gains import write_tracking_rows
 from quadlab.controllers.tasks.task import TaskRows, Variable, empty_equation
 from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 
@@ -13,11 +14,11 @@ from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 class ComPositionTask:
     """J_com,xy u_dot = c_ddot_ref + K_d (c_dot_ref - c_dot) + K_p (c_ref - c) - J_dot u.
 
-    In world axes and with one gain for both, where the papers use a control frame that leans with the ground: on level
-    ground that is the same.
+    The axes are those of the world, or heading and lateral of the ground as in the papers: on level ground that is the
+    same. The CoM is to be as high as the desired base would carry it.
     """
 
-    class Config(TrackingGains):
+    class Config(FramedGains):
         """Gains of the horizontal CoM motion."""
 
         task: Literal["com_position"]
@@ -28,6 +29,8 @@ class ComPositionTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
+        if self.config.frame is Frame.CONTROL:
+            return self._rows_over_ground(kinematics, reference)
         write_tracking_rows(
             self.config.proportional_per_s2,
             self.config.derivative_per_s,
@@ -35,6 +38,21 @@ class ComPositionTask:
             (reference.com_velocity, kinematics.com_velocity),
             (reference.com_position, kinematics.com_position),
             kinematics.com_bias,
+            kinematics.com_jacobian,
+            (self._rows.matrix, self._rows.upper),
+        )
+        return self._rows
+
+    def _rows_over_ground(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
+        com_in_base = kinematics.base_rotation.T @ (kinematics.com_position - kinematics.base_position)
+        height = reference.base_height + reference.base_rotation[2] @ com_in_base
+        write_motion_over_ground(
+            (self.config.proportional_per_s2, self.config.derivative_per_s),
+            reference.ground_axes,
+            0,
+            (reference.com_acceleration, reference.com_velocity, reference.com_position),
+            (reference.base_acceleration[2], reference.base_velocity[2], height),
+            (kinematics.com_bias, kinematics.com_velocity, kinematics.com_position),
             kinematics.com_jacobian,
             (self._rows.matrix, self._rows.upper),
         )

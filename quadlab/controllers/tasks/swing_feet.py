@@ -17,7 +17,7 @@ from quadlab.robots.legs import LEG_COUNT
 class SwingFeetTask:
     """J_F u_dot = r_ddot_ref + K_d (r_dot_ref - r_dot) + K_p (r_ref - r) - J_dot u for each foot in the air.
 
-    In world axes and with one gain for all of them, where the paper writes the rows in its control frame.
+    In world axes, where the paper writes the rows in its control frame: with one gain for all axes that is the same.
     """
 
     class Config(TrackingGains):
