@@ -1,4 +1,4 @@
-"""The largest push survived by direction, for two planners and two controllers."""
+"""The largest push survived by direction, for each planner and controller."""
 
 import numpy as np
 import pandas as pd
@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MultipleLocator
 
-from paper_figures.comparison_variants import COLOURS, CONTROLLERS, DASHES, PLANNERS, STUDY, artefact
+from paper_figures.comparison_variants import COLOURS, CONTROLLERS, PLANNERS, STUDY, artefact, short
 from paper_figures.known_limits import known_limits, limit_text
 from paper_figures.push_limits import speeds_mps
 from quadlab.analysis.artefact import Claim, Verdict
@@ -15,8 +15,8 @@ from quadlab.plotting.style import TEXT_WIDTH, paper_style
 
 CAPTION = (
     "Largest push of 0.15 s that ANYmal B survives by its direction, straight ahead is up; the radius is J/m in "
-    "m/s, the median over two phases of the stride, on a grid of 0.1 m/s. Blue: kinematic planner, orange: vertex "
-    "ZMP; solid: hierarchical, dashed: weighted. Estimator ekf."
+    "m/s, the median over two phases of the stride, on a grid of 0.1 m/s. One row a gait, one column a controller, one "
+    "colour a planner; zmp_spline plans walks alone. Estimator ekf."
 )
 ARTEFACT = artefact("directions", "Largest push survived by direction", CAPTION)
 CIRCLES_MPS = 0.5
@@ -28,36 +28,38 @@ GAITS = ("trot", "walk")
 
 @paper_style()
 def draw(results: StudyResults) -> Figure:
-    """Return polar plots, one a gait: straight ahead is up, the radius is the change of velocity J / m."""
+    """Return polar plots, one a gait and controller: straight ahead is up, the radius is the change of velocity."""
     limits = numbers(results)
-    figure = Figure(figsize=(TEXT_WIDTH, 3.4), layout="constrained")
+    figure = Figure(figsize=(TEXT_WIDTH, 5.0), layout="constrained")
     reach_mps = 1.04 * limits["median_mps"].max()
-    for place, gait in enumerate(GAITS, 1):
-        axes = figure.add_subplot(1, len(GAITS), place, projection="polar")
+    panels = [(gait, controller) for gait in GAITS for controller in CONTROLLERS]
+    for place, (gait, controller) in enumerate(panels, 1):
+        axes = figure.add_subplot(len(GAITS), len(CONTROLLERS), place, projection="polar")
         assert isinstance(axes, PolarAxes)
-        _draw_gait(axes, limits[limits["gait"] == gait])
+        _draw_planners(axes, limits[(limits["gait"] == gait) & (limits["controller"] == controller)])
         axes.set_ylim(0.0, reach_mps)
-        axes.set_title(f"{gait}: largest push survived, J/m [m/s]", pad=10)
-    handles, labels = figure.axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, handlelength=3.0)
+        axes.set_title(f"{gait}, {short(controller)}", pad=6)
+    handles, labels = figure.axes[-1].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(PLANNERS), handlelength=3.0)
     return figure
 
 
-def _draw_gait(axes: PolarAxes, limits: pd.DataFrame) -> None:
+def _draw_planners(axes: PolarAxes, limits: pd.DataFrame) -> None:
     axes.set_theta_zero_location("N")
     axes.set_thetagrids([0, 90, 180, 270], ["forward", "left", "back", "right"])
     for planner in PLANNERS:
-        for controller in CONTROLLERS:
-            rows = limits[(limits["planner"] == planner) & (limits["controller"] == controller)]
-            closed = pd.concat([rows, rows.head(1)])
-            axes.plot(
-                np.radians(closed["direction_deg"]),
-                closed["median_mps"],
-                f"o{DASHES[controller]}",
-                color=COLOURS[planner],
-                markersize=2.5,
-                label=f"{planner}, {controller}",
-            )
+        rows = limits[limits["planner"] == planner]
+        if rows.empty:
+            continue
+        closed = pd.concat([rows, rows.head(1)])
+        axes.plot(
+            np.radians(closed["direction_deg"]),
+            closed["median_mps"],
+            "o-",
+            color=COLOURS[planner],
+            markersize=2.5,
+            label=planner,
+        )
     axes.yaxis.set_major_locator(MultipleLocator(CIRCLES_MPS))
     axes.set_rlabel_position(LABELS_DEG)
     axes.tick_params(axis="y", labelsize=6.0)

@@ -1,4 +1,4 @@
-"""Weighted or hierarchical, kinematic or vertex ZMP: differences over pairs with the same everything else."""
+"""Which controller, which planner: differences over pairs with the same everything else."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from paper_figures.comparison_variants import FACTORS, STUDY, artefact
+from paper_figures.comparison_variants import QUESTIONS, STUDY, Question, artefact
 from paper_figures.known_limits import known_limits
 from paper_figures.push_limits import ANYMAL_KG, PUSH_S
 from quadlab.analysis.artefact import Claim, Verdict
@@ -20,13 +20,14 @@ RELEVANT_PERCENT = 2.0
 """Smaller differences, in per cent of the first one's mean or points of a share, matter to nobody."""
 CAPTION = (
     "Mean differences over conditions (disturbance, gait, seed, or direction and place of a search for a limit), each "
-    "the mean over both levels of the other factor, in per cent of the first one's mean, of completed trials in "
-    "points; estimator ekf. Axis linear within the grey band of 2 %, logarithmic beyond. Intervals of 95 %, not "
-    "corrected for their number; coloured if the mean leaves the band and a permutation test over the pairs, corrected "
-    "for all rows by Holm's method, says so at 5 %: blue where the first is better, orange the second. Errors, cost of "
-    "transport and times are those of conditions that all four completed."
+    "the mean over planners (kinematic_sqp and vertex_zmp) or over all controllers, in per cent of the first one's "
+    "mean, of completed trials in points; estimator ekf. Axis linear within the grey band of 2 %, logarithmic beyond. "
+    "Intervals of 95 %, not corrected for their number; coloured if the mean leaves the band and a permutation test "
+    "over the pairs, corrected for all rows by Holm's method, says so at 5 %: blue where the first is better, orange "
+    "the second. Errors, cost of transport and times are those of conditions that all variants of a question "
+    "completed. Places of planks and steps, 2 cm apart, count as independent. zmp_spline plans walks alone."
 )
-ARTEFACT = artefact("differences", "Weighted or hierarchical, kinematic or vertex ZMP", CAPTION)
+ARTEFACT = artefact("differences", "Which controller, which planner", CAPTION)
 TICKS_PERCENT = (-100, -10, -2, 0, 2, 10, 100)
 
 
@@ -72,27 +73,34 @@ KEYS = ("disturbance", "gait", "direction", "scenario.pushes.0.start_s", "scenar
 
 @paper_style()
 def draw(results: StudyResults) -> Figure:
-    """Return relative differences with their 95 % intervals, one row a measure and one column a question."""
+    """Return relative differences with their 95 % intervals, one row a measure and one panel a question."""
     table = numbers(results)
     names = list(dict.fromkeys(table["measure"]))
-    figure = Figure(figsize=(TEXT_WIDTH, 0.21 * len(names) + 0.8), layout="constrained")
-    panels = figure.subplots(1, len(FACTORS), sharey=True, squeeze=False)[0]
-    for axes, (factor, (first, second)) in zip(panels, FACTORS.items(), strict=True):
-        axes.set_title(f"{second} minus {first}")
-        rows = table[table["factor"] == factor].set_index("measure")
-        for place, name in enumerate(names):
-            _draw_difference(axes, place, rows.loc[name])
+    figure = Figure(figsize=(TEXT_WIDTH, 2.0 * (0.16 * len(names) + 0.45)), layout="constrained")
+    panels = figure.subplots(2, len(QUESTIONS) // 2, sharex=True, sharey=True)
+    for axes, question in zip(panels.flat, QUESTIONS, strict=True):
+        axes.set_title(question.text)
+        for _, row in _rows_of(table, question).iterrows():
+            _draw_difference(axes, names.index(str(row["measure"])), row)
         _style_axis(axes)
-    panels[0].set_yticks(range(len(names)), names)
-    panels[0].invert_yaxis()
-    figure.supxlabel("mean difference [%]; blue: the first is better, orange: the second, grey: no clear one", size=8)
+    for axes in panels[:, 0]:
+        axes.set_yticks(range(len(names)), names)
+    panels[0, 0].invert_yaxis()
+    figure.supxlabel(
+        "mean difference [%]; blue: the one named last is better, orange: the one named first, grey: no clear one",
+        size=8,
+    )
     return figure
+
+
+def _rows_of(table: pd.DataFrame, question: Question) -> pd.DataFrame:
+    return table[(table["first"] == question.first) & (table["second"] == question.second)]
 
 
 def _draw_difference(axes: Axes, place: int, row: "pd.Series[float]") -> None:
     estimate, lower, upper = (float(row[f"{name}_percent"]) for name in ("difference", "lower", "upper"))
     better = better_of(row)
-    colour = NEUTRAL if better is None else SERIES[1] if better == FACTORS[str(row["factor"])][1] else SERIES[2]
+    colour = NEUTRAL if better is None else SERIES[1] if better == str(row["first"]) else SERIES[2]
     axes.errorbar(
         [estimate], [place], xerr=[[estimate - lower], [upper - estimate]], fmt="o", color=colour, capsize=2, ms=3.5
     )
@@ -124,17 +132,27 @@ def _rows(table: pd.DataFrame, limits: pd.DataFrame) -> Iterator[dict[str, objec
     tracked = table[~table["disturbance"].isin(limits["disturbance"].unique())]
     tracked = tracked.assign(**{COMPLETED: (tracked["status"] == "completed").astype(float)})
     good, survived = tracked[tracked[COMPLETED] > 0.0], limits.fillna({"limit": 0.0})
-    for factor in FACTORS:
+    for question in QUESTIONS:
         for measure in MEASURES:
             source = survived if measure.searched else tracked if measure.column == COMPLETED else good
-            for name, rows in _parts(source, measure):
+            for name, rows in _parts(asked(source, question), measure):
                 scaled = rows.assign(**{measure.column: measure.scale * rows[measure.column]})
-                yield row_of(factor, name, measure, scaled)
+                yield row_of(question, name, measure, scaled)
+
+
+def asked(table: pd.DataFrame, question: Question) -> pd.DataFrame:
+    """Return the rows of a question; gaits that one of the two cannot do are none of its conditions."""
+    both = table[table[question.factor].isin((question.first, question.second))]
+    both = both[both[question.other].isin(question.over)]
+    able = both.groupby(["disturbance", "gait"])[question.factor].transform("nunique")
+    return both[able == len((question.first, question.second))]
 
 
 def _parts(source: pd.DataFrame, measure: Measure) -> Iterator[tuple[str, pd.DataFrame]]:
     """Return the rows that count for a measure, gait by gait if gaits stand for themselves, and how that is called."""
     chosen = source[source["disturbance"] == measure.disturbance] if measure.disturbance else source
+    if chosen.empty:
+        return
     if not measure.by_gait:
         yield measure.name, chosen
         return
@@ -142,34 +160,34 @@ def _parts(source: pd.DataFrame, measure: Measure) -> Iterator[tuple[str, pd.Dat
         yield f"{measure.name}, {str(gait).replace('_', ' ')}", rows
 
 
-def averaged(table: pd.DataFrame, factor: str, column: str) -> tuple[pd.DataFrame, list[str]]:
+def averaged(table: pd.DataFrame, question: Question, column: str) -> tuple[pd.DataFrame, list[str]]:
     """Return the mean of ``column`` over the levels of the other factor, and the columns that make a condition.
 
-    There is one row a condition and level of ``factor``.
+    There is one row a condition and level of the factor in question.
 
     Trials that differ in the other factor alone are no independent ones: counted singly they would make intervals too
     narrow. Conditions in which a value is missing at one of its levels are left out.
     """
-    other = next(name for name in FACTORS if name != factor)
     keys = [key for key in KEYS if key in table]
     known = table.assign(**{key: table[key].astype(str).where(table[key].notna(), "") for key in keys})
-    groups = known.groupby([*keys, factor], observed=True)[column]
+    groups = known.groupby([*keys, question.factor], observed=True)[column]
     means = groups.agg(["mean", "count"]).reset_index().rename(columns={"mean": column})
-    return means[means["count"] == len(FACTORS[other])], keys
+    return means[means["count"] == len(question.over)], keys
 
 
-def row_of(factor: str, name: str, measure: Measure, rows: pd.DataFrame) -> dict[str, object]:
-    """Return what ``numbers`` says of a factor and a measure, before the correction for the number of rows."""
-    levels = FACTORS[factor]
-    means, same = averaged(rows, factor, measure.column)
-    wide = pairs(means, factor, levels, same, measure.column)
+def row_of(question: Question, name: str, measure: Measure, rows: pd.DataFrame) -> dict[str, object]:
+    """Return what ``numbers`` says of a question and a measure, before the correction for the number of rows."""
+    levels = question.first, question.second
+    means, same = averaged(rows, question, measure.column)
+    wide = pairs(means, question.factor, levels, same, measure.column)
     first, second = wide[levels[0]].to_numpy(float), wide[levels[1]].to_numpy(float)
     difference = paired_mean_difference(first, second)
     to_percent = 1.0 if measure.column == COMPLETED else 100.0 / first.mean()
     kinds = wide.index.to_frame()[["disturbance", "gait"]].agg(", ".join, axis=1)
     differing = kinds[first != second]
     return {
-        "factor": factor,
+        "first": question.first,
+        "second": question.second,
         "measure": name,
         "first_mean": first.mean(),
         "second_mean": second.mean(),
@@ -190,11 +208,10 @@ def row_of(factor: str, name: str, measure: Measure, rows: pd.DataFrame) -> dict
 
 def better_of(row: "pd.Series[float]") -> str | None:
     """Return which of the two is better, or None if that is not clear or does not matter."""
-    first, second = FACTORS[str(row["factor"])]
     estimate = float(row["difference_percent"])
     if not (float(row["corrected"]) < 1.0 - CONFIDENCE and abs(estimate) > RELEVANT_PERCENT):
         return None
-    return second if (estimate > 0.0) == bool(row["larger_is_better"]) else first
+    return str(row["second"] if (estimate > 0.0) == bool(row["larger_is_better"]) else row["first"])
 
 
 def claims(results: StudyResults) -> list[Claim]:
@@ -203,13 +220,14 @@ def claims(results: StudyResults) -> list[Claim]:
 
 
 def _claim(row: "pd.Series[float]") -> Claim:
-    first, second = FACTORS[str(row["factor"])]
     lower, upper, estimate = float(row["lower"]), float(row["upper"]), float(row["difference"])
     ours = (
         f"{estimate:+.3g} ({lower:+.3g} to {upper:+.3g}) of {float(row['first_mean']):.3g}, {row['pairs']} pairs, "
         f"p = {float(row['corrected']):.2g}"
     )
-    return Claim(f"{row['measure']}: {second} minus {first}", "-", ours, Verdict.NEW, " ".join(_remarks(row)))
+    return Claim(
+        f"{row['measure']}: {row['second']} minus {row['first']}", "-", ours, Verdict.NEW, " ".join(_remarks(row))
+    )
 
 
 def _remarks(row: "pd.Series[float]") -> Iterator[str]:

@@ -3,8 +3,10 @@
 import pandas as pd
 import pytest
 
-from paper_figures.comparison.who_wins import MEASURES, averaged, better_of, row_of
+from paper_figures.comparison.who_wins import MEASURES, asked, averaged, better_of, row_of
+from paper_figures.comparison_variants import Question
 
+KINEMATIC_OR_VERTEX = Question("planner", "kinematic_sqp", "vertex_zmp", "controller", ("weighted", "hierarchical"))
 TABLE = pd.DataFrame(
     {
         "planner": ["kinematic_sqp", "kinematic_sqp", "vertex_zmp", "vertex_zmp"] * 2,
@@ -17,14 +19,14 @@ TABLE = pd.DataFrame(
 
 
 def test_trials_that_differ_in_the_other_factor_alone_count_once() -> None:
-    means, condition = averaged(TABLE, "planner", "error")
+    means, condition = averaged(TABLE, KINEMATIC_OR_VERTEX, "error")
     first = means[means["seed"] == "0"].set_index("planner")["error"]
     assert first.to_dict() == {"kinematic_sqp": 2.0, "vertex_zmp": 6.0}
     assert condition == ["direction", "seed"]
 
 
 def test_condition_in_which_a_value_is_missing_is_left_out() -> None:
-    means, _ = averaged(TABLE, "planner", "error")
+    means, _ = averaged(TABLE, KINEMATIC_OR_VERTEX, "error")
     assert means[means["seed"] == "1"]["planner"].to_list() == ["kinematic_sqp"]
 
 
@@ -43,7 +45,8 @@ def test_better_is_what_is_sure_and_large_enough(
 ) -> None:
     row = pd.Series(
         {
-            "factor": "controller",
+            "first": "weighted",
+            "second": "hierarchical",
             "difference_percent": percent,
             "corrected": corrected,
             "larger_is_better": larger_is_better,
@@ -54,7 +57,8 @@ def test_better_is_what_is_sure_and_large_enough(
 
 def test_difference_that_one_kind_of_condition_makes_alone_says_so() -> None:
     completed = MEASURES[0]
-    levels = [(planner, controller) for planner in ("kinematic_sqp", "vertex_zmp") for controller in ("a", "b")]
+    question = KINEMATIC_OR_VERTEX
+    levels = [(planner, controller) for planner in (question.first, question.second) for controller in question.over]
     trials = pd.DataFrame(
         [
             (disturbance, "walk", seed, planner, controller, float(disturbance == "none" or planner == "vertex_zmp"))
@@ -64,8 +68,24 @@ def test_difference_that_one_kind_of_condition_makes_alone_says_so() -> None:
         ],
         columns=["disturbance", "gait", "seed", "planner", "controller", completed.column],
     )
-    row = row_of("planner", completed.name, completed, trials)
+    row = row_of(question, completed.name, completed, trials)
     assert row["only_in"] == "low friction, walk"
     assert row["differing"] == 3
     assert row["pairs"] == 6
     assert row["probability"] == pytest.approx(0.25)
+
+
+def test_gait_that_one_of_the_two_cannot_do_is_no_condition() -> None:
+    trials = pd.DataFrame(
+        [
+            ("none", "walk", "zmp_spline", "weighted"),
+            ("none", "walk", "vertex_zmp", "weighted"),
+            ("none", "walk", "kinematic_sqp", "weighted"),
+            ("none", "trot", "vertex_zmp", "weighted"),
+            ("slope up", "walk", "vertex_zmp", "weighted"),
+            ("none", "walk", "vertex_zmp", "another"),
+        ],
+        columns=["disturbance", "gait", "planner", "controller"],
+    )
+    question = Question("planner", "zmp_spline", "vertex_zmp", "controller", ("weighted",))
+    assert asked(trials, question).index.to_list() == [0, 1]
