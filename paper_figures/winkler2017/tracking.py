@@ -9,25 +9,33 @@ from paper_figures.trial_claims import completed, survival
 from quadlab.analysis.artefact import Artefact, Claim, Verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.plotting.axes.plan_view import COP_DOT
-from quadlab.plotting.style import MEASURED, NEUTRAL, REFERENCE, TEXT_WIDTH, paper_style
+from quadlab.plotting.style import MEASURED, NEUTRAL, REFERENCE, SERIES, TEXT_WIDTH, paper_style
 
 STUDY = "winkler2017_tracking"
 CAPTION = (
     "HyQ with projected inverse dynamics at 250 Hz, 16 steps over 1 m with the schedules of Table I. The plans have "
     "0.8 s (walk) or 0.6 s (trot) of standing before and after and the default costs of the fast planner, which the "
     "plans of Table I have not. Above, y enlarged: perturbed start, seed 0, estimator ekf; wide blue: desired CoM; "
-    "dashed: true CoM; red: desired CoP. Below: error of the true CoM in x-y, in this trial and in one without "
-    "anything random, estimator truth and nominal start."
+    "dashed: true CoM; red: desired CoP. Below: error of the true CoM in x-y, in this trial, in the same one planned "
+    "anew every 0.3 s from the estimated state, and in one without anything random, estimator truth and nominal start."
 )
 ARTEFACT = Artefact(
     "W-X1", "Winkler 2017, V", "HyQ walks and trots as long and as far as in Table I", (STUDY,), CAPTION
 )
 GAITS = ("walk", "trot")
-TRACES = {"": ("ekf, perturbed start", MEASURED), "_nominal": ("truth, nominal start", NEUTRAL)}
+TRACES = {
+    "": ("ekf, perturbed start", MEASURED),
+    "_replanned": ("the same, replanned", SERIES[1]),
+    "_nominal": ("truth, nominal start", NEUTRAL),
+}
 """How the names of traces end, what they show and its colour."""
 SHOWN = next(iter(TRACES.values()))[0]
 PRINTED_HZ = 250
-STARTS = {"nominal": "the nominal start", "perturbed": "perturbed starts"}
+STARTS = {
+    "nominal": "the nominal start",
+    "perturbed": "perturbed starts",
+    "replanned": "perturbed starts, replanned every 0.3 s",
+}
 
 
 @paper_style()
