@@ -10,7 +10,7 @@ import numpy as np
 from quadlab import geometry
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.control_frame import NORMAL_ROW, Frame, FramedGains, write_turned_rows
+from quadlab.controllers.tasks.control_frame import Frame, FramedGains, write_turned_rows
 from quadlab.controllers.tasks.gains import TrackingGains, tracking_target
 from quadlab.controllers.tasks.task import TaskRows, Variable, empty_equation, equation
 from quadlab.geometry.rotation_error import error_below_half_turn, rotation_error
@@ -83,7 +83,7 @@ class BaseYawTask:
         """Return one row in accelerations."""
         _write_angular_target(self.config, kinematics, reference, self._target)
         if self.config.frame is Frame.CONTROL:
-            _turn_into_control_frame(kinematics, reference, NORMAL_ROW, self._target, self._turned)
+            _turn_into_control_frame(kinematics, reference, 2, self._target, self._turned)
             return self._turned
         return equation(Variable.ACCELERATION, kinematics.base_jacobian[5:], self._vertical_target)
 

@@ -15,7 +15,7 @@ class ComPositionTask:
     """J_com,xy u_dot = c_ddot_ref + K_d (c_dot_ref - c_dot) + K_p (c_ref - c) - J_dot u.
 
     The axes are those of the world, or heading and lateral of the ground as in the papers: on level ground that is the
-    same. The CoM is to be as high as the desired base would carry it.
+    same.
     """
 
     class Config(FramedGains):
@@ -30,7 +30,15 @@ class ComPositionTask:
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
         if self.config.frame is Frame.CONTROL:
-            return self._rows_over_ground(kinematics, reference)
+            write_motion_over_ground(
+                (self.config.proportional_per_s2, self.config.derivative_per_s),
+                reference.ground_axes,
+                (reference.com_acceleration, reference.com_velocity, reference.com_position),
+                (kinematics.com_bias, kinematics.com_velocity, kinematics.com_position),
+                kinematics.com_jacobian,
+                (self._rows.matrix, self._rows.upper),
+            )
+            return self._rows
         write_tracking_rows(
             self.config.proportional_per_s2,
             self.config.derivative_per_s,
@@ -38,21 +46,6 @@ class ComPositionTask:
             (reference.com_velocity, kinematics.com_velocity),
             (reference.com_position, kinematics.com_position),
             kinematics.com_bias,
-            kinematics.com_jacobian,
-            (self._rows.matrix, self._rows.upper),
-        )
-        return self._rows
-
-    def _rows_over_ground(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
-        com_in_base = kinematics.base_rotation.T @ (kinematics.com_position - kinematics.base_position)
-        height = reference.base_height + reference.base_rotation[2] @ com_in_base
-        write_motion_over_ground(
-            (self.config.proportional_per_s2, self.config.derivative_per_s),
-            reference.ground_axes,
-            0,
-            (reference.com_acceleration, reference.com_velocity, reference.com_position),
-            (reference.base_acceleration[2], reference.base_velocity[2], height),
-            (kinematics.com_bias, kinematics.com_velocity, kinematics.com_position),
             kinematics.com_jacobian,
             (self._rows.matrix, self._rows.upper),
         )
