@@ -34,6 +34,9 @@ class DrivenMotion:
 def legs_following_base(kinematics: Kinematics, reference: ControlReference, gains: TrackingGains) -> DrivenMotion:
     """Winkler 2017, Eq. (22): u_dot_j = J_j^+ (p_ddot - J_dot u - J_b u_dot_b), leg by leg.
 
+    A stretched leg, whose Jacobian has a singular value below 1 % of the largest, is not accelerated along that
+    direction; if it stands, its foot is then not quite held.
+
     Args:
         kinematics: measured.
         reference: of the feet; p_ddot of standing feet is zero.

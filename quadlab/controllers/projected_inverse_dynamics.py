@@ -53,6 +53,11 @@ class ProjectedInverseDynamicsResolver:
     - Feet do not pull: one that would have to is taken to carry nothing.
     - Of the torques of one motion those with the least contact forces are taken (Righetti 2013); the printed
       pseudo-inverse takes the least torques, which push a foot with little load sideways until it slips.
+    - What is tracked is that of the other controllers: plans are aligned with the feet, footholds answer errors of
+      velocity, lift-offs wait for balance, late feet search the ground, swings are quintics with an arc of their own,
+      and roll and pitch follow half the slope of a fitted plane, over which heights count. The paper has none of it.
+    - The feedback of the joints begins anew from the measured joints in every tick: it damps within a control period
+      and corrects no error that has gathered.
 
     Friction and torque limits are no part of it; the simulator clips torques.
     """

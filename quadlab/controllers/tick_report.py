@@ -19,6 +19,9 @@ def describe_tick(
 ) -> ControlTelemetry:
     """Return the telemetry of a tick.
 
+    The reference of the CoM is that of the tasks in x and y; its height is that of the base's reference, with the CoM
+    as far from the base as measured, and its vertical velocity is zero also where the ground rises.
+
     Args:
         tracked: what the tracker asked for.
         kinematics: measured.

@@ -46,7 +46,7 @@ class TerrainPlane(NamedTuple):
 def fit_plane(points: Array, origin: Array) -> TerrainPlane:
     """Return the least-squares plane through ``points``, (n, 3) in [m], written about ``origin``, (2,).
 
-    The points must not lie on one vertical plane; four feet never do.
+    Points on one vertical plane, as under a robot that has fallen over, give infinities or NaN.
     """
     x, y = origin.tolist()
     height, slope_x, slope_y = _least_squares_plane(points, x, y)
@@ -69,7 +69,12 @@ def _least_squares_plane(points: Array, origin_x: float, origin_y: float) -> tup
 
 
 def blend(old: TerrainPlane, new: TerrainPlane, share: float) -> TerrainPlane:
-    """Return ``old`` moved towards ``new`` by ``share`` in [0, 1], written about the origin of ``new``."""
+    """Return ``old`` moved towards ``new`` by ``share`` in [0, 1], written about the origin of ``new``.
+
+    A new plane that is none, of points on one line, leaves the old one.
+    """
+    if not math.isfinite(new.height):
+        return old.moved_to(new.origin)
     height = old.moved_to(new.origin).height
     (old_x, old_y), (new_x, new_y) = old.slope, new.slope
     slope = (old_x + share * (new_x - old_x), old_y + share * (new_y - old_y))

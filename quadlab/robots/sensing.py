@@ -23,7 +23,7 @@ class SensorReading:
             at rest on level ground it is (0, 0, +9.81).
         joint_positions: (12,) in [rad], order ``JOINT_NAMES``.
         joint_velocities: (12,) in [rad/s].
-        joint_torques: that acted until the reading, (12,) in [N m].
+        joint_torques: asked of the drives until the reading, (12,) in [N m].
         foot_forces_in_base: force of the ground on each foot in base axes, (4, 3) in [N], order ``LEGS``.
     """
 

@@ -15,7 +15,8 @@ class ModelErrorConfig(StrictModel):
         payload_kg: point mass fixed to the base in [kg].
         payload_position_m: of it in base axes from the base origin in [m].
         inertia_scale: factor on the rotational inertias of all links, masses apart.
-        torque_scale: factor on the torques that the drives give; recorded torques are those asked for.
+        torque_scale: factor on the torques that the drives give; recorded and sensed torques are those asked for, as of
+            drives that tell them from the current. The cost of transport counts what they give.
     """
 
     payload_kg: NonNegative

@@ -48,16 +48,18 @@ class TrialMetrics:
     """Keeps one row of numbers a tick; ``summary`` makes the metrics of ``TrialResult`` of them.
 
     Attributes:
-        mass: of the robot in [kg].
+        mass: of the simulated robot, payload included, in [kg].
         torque_limits: (12,) in [N m].
         period_s: control period in [s].
         limit_names: of the controller's residuals that no tick should have.
+        torque_scale: what the drives give of a torque that is asked for.
     """
 
     mass: float
     torque_limits: Array
     period_s: float
     limit_names: tuple[str, ...] = ()
+    torque_scale: float = 1.0
     _rows: list[Array] = field(default_factory=list)
     _modes: list[tuple[LegMode, ...]] = field(default_factory=list)
     _fallbacks: int = 0
@@ -69,7 +71,8 @@ class TrialMetrics:
 
         Args:
             state: true state at its start.
-            command: torques as applied (within the limits), with drives those of the tick's last physics step.
+            command: torques asked of the drives (within the limits), with joint feedback those of the tick's last
+                physics step.
             telemetry: of the controller, its measured quantities replaced by the true ones.
             physics_state: everything the simulator integrates; goes into the hash.
         """
@@ -110,7 +113,8 @@ class TrialMetrics:
         survived = float(ticks["time"][-1, 0] + self.period_s - ticks["time"][0, 0])
         com_errors = np.linalg.norm((ticks["com"] - ticks["com_reference"])[:, :2], axis=1)
         torques = np.abs(ticks["torques"])
-        energy = float(np.abs(ticks["torques"] * ticks["joint_velocities"]).sum()) * self.period_s
+        power = self.torque_scale * np.abs(ticks["torques"] * ticks["joint_velocities"])
+        energy = float(power.sum()) * self.period_s
         return {
             "survived_s": survived,
             "distance_m": distance,

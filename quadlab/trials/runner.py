@@ -92,7 +92,14 @@ class ClosedLoop:
     ) -> None:
         self.config = config
         self.plan = plan
-        self.metrics = TrialMetrics(robot.mass, robot.torque_limits, controller.period_s, controller.limit_names)
+        error = config.simulation.model_error
+        self.metrics = TrialMetrics(
+            robot.mass + error.payload_kg,
+            robot.torque_limits,
+            controller.period_s,
+            controller.limit_names,
+            error.torque_scale,
+        )
         self.estimation = EstimationMetrics()
         self.real_time_factor = 0.0
         self._robot = robot

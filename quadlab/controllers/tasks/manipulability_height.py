@@ -37,8 +37,8 @@ class ManipulabilityHeightTask:
     """z_ddot = k_0 sum_k s_k dm_k/dq_KFE - k_d z_dot, with s_k = +-1.
 
     Eq. (23) adds up the gradients by the knee angles as if every knee lifted the base when its angle grows; here each
-    is taken in the direction s_k in which its knee raises the hip: the same for robots whose knees point that way, and
-    right for the others. All legs count alike, w_k = 1.
+    is taken in the direction s_k in which its knee lengthens the leg: the same for robots whose knees point that way,
+    and right for the others. All legs count alike, w_k = 1.
     """
 
     class Config(StrictModel):
@@ -62,7 +62,8 @@ class ManipulabilityHeightTask:
         for leg in range(LEG_COUNT):
             columns = slice(_FIRST_JOINT + 3 * leg, _FIRST_JOINT + 3 * leg + 3)
             jacobian = kinematics.foot_jacobians[leg][:, columns]
-            raises_hip = -np.sign(jacobian[2, 2])
-            upward += raises_hip * knee_gradient(jacobian, kinematics.leg_joint_axes[leg])
+            reach = kinematics.foot_positions[leg] - kinematics.hip_positions[leg]
+            lengthens = np.sign(reach @ jacobian[:, 2])
+            upward += lengthens * knee_gradient(jacobian, kinematics.leg_joint_axes[leg])
         target = self.config.pull * upward - self.config.damping_per_s * kinematics.base_linear_velocity[2:3]
         return equation(Variable.ACCELERATION, kinematics.base_jacobian[2:3], target - kinematics.base_bias[2:3])

@@ -1,4 +1,8 @@
-"""Where the plan lies in the world: the alignment of plan frame P and inertial frame I (Gehring 2017, III-A)."""
+"""Where the plan lies in the world: the alignment of plan frame P and inertial frame I (Gehring 2017, III-A).
+
+A deviation: the paper lays P on the plane of the terrain. Here P turns about the vertical alone, so that horizontal
+distances stay as planned, and heights are added over the terrain.
+"""
 
 import math
 from typing import NamedTuple, TypeAlias

@@ -22,7 +22,8 @@ class LegContact:
     Attributes:
         mode: what the leg is doing.
         foothold: index of the planned foothold that it stands on or left last.
-        stance_point: where it touched down last, frozen there, (3,) in [m].
+        stance_point: where it touched down, or was measured anew after a slip; of a leg in the air where it lifted off,
+            (3,) in [m].
         lift_off_point: where its swing (or search) began, (3,) in [m].
         lift_off_s, touch_down_due_s: plan times of the swing under way in [s]; a hastened swing has those that it would
             have had, had it always had its present pace.
@@ -89,7 +90,7 @@ class ContactMachine:
 
     @property
     def stance_points(self) -> Array:
-        """Where each leg touched down last, (4, 3) in [m]."""
+        """Where each leg stands, or lifted off if it is in the air, (4, 3) in [m]."""
         return np.array([leg.stance_point for leg in self.legs])
 
     @property

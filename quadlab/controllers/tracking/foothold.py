@@ -15,6 +15,10 @@ def balance_correction(
 ) -> Array:
     """Return the inverted-pendulum correction sqrt(h / g) (v - v_ref), blended in linearly over the swing, (2,) in [m].
 
+    A deviation from Gehring 2017, which corrects the planned positions of the foot in the air by this share: here it is
+    the foothold, to which a quintic leads, so that the foot itself follows later in the swing. Planned positions in
+    between are not used.
+
     Args:
         gain: on the correction, dimensionless.
         speed_limit: speed error at which the answer saturates in [m/s].

@@ -24,7 +24,8 @@ def quintic_blend(progress: float) -> tuple[float, float, float]:
 def swing_motion(lift_off: Array, foothold: Array, apex: float, phase: float, duration_s: float) -> Array:
     """Return the motion of a swinging foot, (3, 3).
 
-    Horizontally one quintic, vertically two that meet at rest at the apex in the middle of the swing.
+    Horizontally one quintic, vertically two that meet at rest at the apex in the middle of the swing. That a foothold
+    moves from tick to tick is no part of velocity and acceleration.
 
     Args:
         lift_off: measured lift-off point, (3,) in [m].

@@ -9,7 +9,10 @@ from quadlab.geometry.rotations import Array, rotation_zyx
 
 
 def torso_rotation(yaw: float, terrain: TerrainPlane, slope_following: float) -> Array:
-    """Return the desired base rotation, (3, 3): heading ``yaw`` in [rad], roll and pitch a share of the slope."""
+    """Return the desired base rotation, (3, 3): heading ``yaw`` in [rad], roll and pitch a share of the slope.
+
+    Roll and pitch are those of slopes in one direction; across both at once the base leans by a higher order more.
+    """
     c, s = math.cos(yaw), math.sin(yaw)
     slope_x, slope_y = terrain.slope
     forward, left = c * slope_x + s * slope_y, -s * slope_x + c * slope_y

@@ -45,7 +45,8 @@ def torso_under_com(
 ) -> PoseMotion:
     """Return the motion, in the world, of a base that stays where it is relative to the CoM, at standing height.
 
-    A deviation from Gehring 2017, whose planner moves the base under the CoM; pendulum planners know none.
+    A deviation from Gehring 2017, whose planner moves the base under the CoM; pendulum planners know none. The CoM is a
+    few centimetres below the base origin, which on slopes moves the base by some millimetres that are neglected.
 
     Args:
         com: desired position, velocity and acceleration of the CoM, (2,) each in [m], [m/s], [m/s^2].
@@ -72,6 +73,7 @@ def planned_torso(planned: PoseMotion, alignment: PlanarPose, clock: tuple[float
     """Return the planned motion of the base where the plan lies in the world.
 
     Heights are those over the ground under the base; roll and pitch of the plan come on top of those of the ground.
+    Angular velocities turn about axes of the plan's level ground, also over a slope.
 
     Args:
         planned: in the plan frame.

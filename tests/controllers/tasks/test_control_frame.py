@@ -77,8 +77,6 @@ def test_level_ground_and_heading_along_x_change_nothing(robot: RobotModel, name
         state = replace(state, quat_wxyz=robot.nominal_state().quat_wxyz)
     kinematics = robot.kinematics(state)
     reference = disturbed_reference(robot, kinematics)
-    if name == "com_position":  # follows height in the control frame alone, which level ground hides
-        reference = replace(reference, base_height=reference.base_height + 0.3)
     in_world, on_ground = (
         framed(name, 70.0, 9.0, frame=frame).rows(kinematics, reference) for frame in ("world", "control")
     )
@@ -86,7 +84,7 @@ def test_level_ground_and_heading_along_x_change_nothing(robot: RobotModel, name
     np.testing.assert_allclose(on_ground.upper, in_world.upper, rtol=1e-12, atol=1e-9)
 
 
-@framed_tasks
+@pytest.mark.parametrize("name", [name for name in AXES_OF if name != "base_height"])
 @pytest.mark.parametrize("seed", range(3))
 def test_rows_are_the_second_derivative_along_the_axes_of_the_ground(robot: RobotModel, name: str, seed: int) -> None:
     state, axes = any_state(robot, seed), axes_of_a_slope()
@@ -111,13 +109,30 @@ def test_a_robot_that_climbs_as_planned_has_no_error(robot: RobotModel, name: st
     np.testing.assert_allclose(tracked, free, atol=1e-10)
 
 
-def test_height_over_a_slope_is_corrected_along_its_normal(robot: RobotModel) -> None:
+@pytest.mark.parametrize("name", ["com_position", "base_position"])
+def test_error_uphill_is_corrected_along_the_slope(robot: RobotModel, name: str) -> None:
+    """Heights, which other tasks may have to give up, are no part of it."""
+    kinematics, axes = robot.kinematics(robot.nominal_state()), axes_of_a_slope()
+    exact = replace(reference_at(robot, kinematics), ground_axes=axes)
+    ahead = 0.1 * axes[:2, 0]
+    further = replace(
+        exact,
+        com_position=exact.com_position + ahead,
+        base_position=exact.base_position + ahead,
+        base_height=exact.base_height + 0.3,
+    )
+    task = framed(name, 100.0, 0.0, frame="control")
+    asked = task.rows(kinematics, further).upper.copy() - task.rows(kinematics, exact).upper
+    np.testing.assert_allclose(asked, [100.0 * 0.1, 0.0], atol=1e-9)
+
+
+def test_height_is_vertical_also_over_a_slope(robot: RobotModel) -> None:
     kinematics = robot.kinematics(robot.nominal_state())
     exact = replace(reference_at(robot, kinematics), ground_axes=axes_of_a_slope())
-    lower = replace(exact, base_height=exact.base_height + 0.05)
-    height = framed("base_height", 100.0, 0.0, frame="control")
-    asked = height.rows(kinematics, lower).upper.copy() - height.rows(kinematics, exact).upper
-    np.testing.assert_allclose(asked, 100.0 * 0.05 / np.sqrt(1.0 + SLOPE @ SLOPE))
+    higher = replace(exact, base_height=exact.base_height + 0.05, base_position=exact.base_position + 0.1)
+    rows = framed("base_height", 100.0, 0.0, frame="control").rows(kinematics, higher)
+    np.testing.assert_array_equal(rows.matrix, kinematics.base_jacobian[2:3])
+    np.testing.assert_allclose(rows.upper + kinematics.base_bias[2], 100.0 * 0.05)
 
 
 def test_options_left_at_their_default_are_not_written() -> None:
