@@ -116,8 +116,12 @@ def claims(results: StudyResults) -> list[Claim]:
     paper = f"succeeds, {PAPER_SHARE} % of the longest leg"
     slips = "Where it falls, a foot has touched the edge itself, slips off it and is searched for too late."
     good = [
-        survival(f"walks down {step} with limb limits, {name}", groups["with", name], paper, NEEDED, slips)
-        for name in ("ekf", "truth")
+        survival(f"walks down {step} with limb limits, {name}", groups[limits, estimator], paper, NEEDED, slips)
+        for name, limits, estimator in (
+            ("ekf", "with", "ekf"),
+            ("truth", "with", "truth"),
+            ("torso in the control frame, ekf", "with in control frame", "ekf"),
+        )
     ]
     adapted = curves[curves["trial"] == "with_limits"]
     without, limit = results.trace(STUDY, "without_limits"), extension_limit("bellicoso2016")
