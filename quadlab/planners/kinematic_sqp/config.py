@@ -69,7 +69,8 @@ class KinematicSqpConfig(StrictModel):
 
     Attributes:
         name: of the planner in results; several files may be of one kind.
-        samples_per_cycle: samples of a cycle with steps.
+        samples_per_cycle: samples of a cycle with steps; contacts switch at the samples nearest to the switches of the
+            schedule, by which the checker judges.
         samples_per_rest: largest number of samples of a stance before, between or after the steps.
         clearance_m: height of a foot in the middle of its swing in [m].
         least_load: smallest share w_min of a foot that carries, Eq. (8).

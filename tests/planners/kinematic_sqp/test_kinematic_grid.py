@@ -9,6 +9,7 @@ from kinematic_cases import PAPER_MOTIONS, WHOLE_MOTIONS, Motion, problem
 from quadlab.gaits.schedule import ContactSchedule
 from quadlab.planners.kinematic_sqp.grid import SampleGrid, sample_grid
 from quadlab.planners.kinematic_sqp.strides import cycle_chain
+from quadlab.planners.kinematic_sqp.switches import beside_samples
 from quadlab.planners.problem import Waypoints
 
 
@@ -85,3 +86,22 @@ def test_standing_alone_is_one_rest() -> None:
     assert len(samples.spans) == 1
     assert samples.ends_at_rest
     assert not samples.wraps
+
+
+def beside(motion: Motion, samples_per_cycle: int) -> str:
+    asked = problem("anymal_b", motion)
+    samples = sample_grid(cycle_chain(asked, samples_per_cycle, 8), asked.start.yaw)
+    return beside_samples(asked.schedule, asked.waypoints, samples.unrolled_times_s, samples_per_cycle)
+
+
+@pytest.mark.parametrize("motion", WHOLE_MOTIONS)
+def test_switches_of_the_paper_lie_on_samples(motion: str) -> None:
+    assert beside(WHOLE_MOTIONS[motion], 16) == ""
+
+
+def test_switches_between_samples_are_told_with_how_many_samples_would_meet_them() -> None:
+    pace = Motion(("pace",) * 4, (0.8,) * 4, (0.1, 0.0, 0.0), 0.4)
+    assert beside(pace, 16) == (
+        "contact switches lie up to 20 ms beside samples; planner.samples_per_cycle=20 would meet them"
+    )
+    assert beside(pace, 20) == ""
