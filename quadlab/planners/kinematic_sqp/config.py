@@ -43,7 +43,8 @@ class SqpConfig(StrictModel):
 
     Attributes:
         max_iterations: limit; more is reported as solver_limit.
-        max_wall_time_s: limit, looked at between iterations, in [s].
+        max_wall_time_s: limit, looked at between iterations, in [s]; whether it ends them depends on the machine, and
+            the reason says so.
         convergence: the objective has converged when neither the model nor the step changes it by more than this share.
         damping: added to the diagonal of the Gauss-Newton Hessian.
         armijo: smallest share of the predicted decrease that a step must reach.

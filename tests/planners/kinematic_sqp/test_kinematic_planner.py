@@ -100,6 +100,14 @@ def test_iteration_limit_is_a_status() -> None:
     found = kinematic.solve(kinematic.build(problem("anymal_b", PAPER_MOTIONS["walk"])))
     assert found.status is PlanningStatus.SOLVER_LIMIT
     assert "2 iterations" in found.reason
+    assert "clock" not in found.reason
+
+
+def test_reason_says_that_the_clock_ended_it() -> None:
+    kinematic = planner(sqp={"max_wall_time_s": 1e-6})
+    found = kinematic.solve(kinematic.build(problem("anymal_b", PAPER_MOTIONS["walk"])))
+    assert found.status is PlanningStatus.SOLVER_LIMIT
+    assert "the clock ended it after 1 iterations, max_wall_time_s 1e-06" in found.reason
 
 
 def test_contradictory_constraints_are_infeasible() -> None:
