@@ -147,6 +147,15 @@ def test_contradiction_names_the_constraints_and_when() -> None:
     assert " s" in outcome.reason
 
 
+def test_constraints_are_not_said_to_contradict_where_the_solver_has_failed() -> None:
+    still = problem("anymal", "stand", COMMANDS["in_place"])
+    falling = replace(still, start=standing(still.model, np.array([2.0, 0.0])))
+    outcome = spline_plan(falling, optimality_tolerance=1e-300)
+    assert outcome.status is PlanningStatus.SOLVER_LIMIT
+    assert outcome.reason.startswith("piqp failed: optimality residual ")
+    assert "with elastic constraints" in outcome.reason
+
+
 def test_rejection_by_the_checker_is_an_outcome() -> None:
     outcome = spline_plan(walk(), checker={**SETTINGS["checker"], "goal_heading_miss_mrad": 0.0, "com_jump_mm": 0.0})
     assert outcome.status is PlanningStatus.REJECTED
