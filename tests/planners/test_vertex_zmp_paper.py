@@ -1,4 +1,4 @@
-"""What holds for the literal transcription: CasADi, Ipopt, feet of any shape."""
+"""What holds for the paper's formulation: CasADi, Ipopt, feet of any shape."""
 
 import casadi as ca
 import numpy as np

@@ -13,8 +13,8 @@ class VertexZmpConfig(StrictModel):
 
     Attributes:
         name: of the planner in results; several files may be of one kind.
-        transcription: ``paper`` is the literal program of Winkler 2017 in CasADi for Ipopt; ``fast`` is the same
-            problem reduced: exact pendulum motion, loads of feet in contact only, own solver; point feet only.
+        transcription: ``paper`` is the formulation of Winkler 2017, with additions, in CasADi for Ipopt; ``fast`` is
+            the same problem reduced: exact pendulum motion, loads of feet in contact only, own solver; point feet only.
         polynomial_duration_s: longest polynomial T_k of the CoM spline in [s]; for ``fast`` the longest time between
             load nodes.
         robustness_weight: weight of J_lambda, Eq. (21), in [1/s].
