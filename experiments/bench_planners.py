@@ -35,7 +35,7 @@ def main() -> None:
     settings = composed.model_dump()
     _warm_up(settings)
     sys.stdout.write("CPU times in [ms]; paper: Ipopt, Intel Core i7, 2.8 GHz, 2017\n")
-    sys.stdout.write("columns 2 to 7: fast (varied: random starts and goals, median); 8 to 10: literal program\n")
+    sys.stdout.write("columns 2 to 7: fast (varied: random starts and goals, median); 8 to 10: paper\n")
     sys.stdout.write(f"{'case':9s}" + "".join(f"{name:>9s}" for name in _COLUMNS) + "\n")
     for case in TABLE_ONE:
         sys.stdout.write(_case_line(case, settings, arguments.repeats))
@@ -81,8 +81,8 @@ def _case_line(case: TableOneCase, settings: dict[str, Any], repeats: int) -> st
     varied_ms = statistics.median(
         _median(fast.build(table_one_problem(case, seed)).solve, 3) for seed in range(1, repeats + 1)
     )
-    literal = _planner(settings, table_one_changes(case, "paper"))
-    ipopt, ipopt_build_ms = _timed(partial(literal.build, problem))
+    paper = _planner(settings, table_one_changes(case, "paper"))
+    ipopt, ipopt_build_ms = _timed(partial(paper.build, problem))
     ipopt_ms = _median(ipopt.solve, 3)
     values = [reported, build_ms, first_ms, repeat_ms, reported / repeat_ms, varied_ms, reported / varied_ms]
     values += [ipopt_build_ms, ipopt_ms, reported / ipopt_ms]
@@ -90,7 +90,7 @@ def _case_line(case: TableOneCase, settings: dict[str, Any], repeats: int) -> st
 
 
 def _random_problems(settings: dict[str, Any], count: int) -> None:
-    """Solve random problems; where the fast program has no answer the literal one is asked as well."""
+    """Solve random problems; where the fast program has no answer that of the paper's formulation is asked as well."""
     outcomes: Counter[str] = Counter()
     times: dict[str, list[float]] = {}
     for seed in range(count):

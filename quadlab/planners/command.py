@@ -51,6 +51,9 @@ def waypoints(
 ) -> Waypoints:
     """Return where the CoM and the heading should be at the end of every stride.
 
+    The start pose is a waypoint too, at time 0 and, after a first stance, at its end: planners with a weight on
+    waypoints draw the CoM to it there, just when it has to lean to the feet that stay.
+
     Args:
         command: what the user asks for.
         stride_times: start of every stride and end of the last one, in [s].

@@ -4,7 +4,7 @@ import math
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from quadlab.configuration import Positive, StrictModel
 from quadlab.errors import ConfigurationError
@@ -14,6 +14,12 @@ from quadlab.simulation.ground import Ground, TerrainBox, ground_from, ground_un
 _RAMP_THICKNESS = 0.5  # [m]
 
 __all__ = ["Ground", "PlankConfig", "SlopeConfig", "StepConfig", "TerrainBox", "TerrainConfig", "build_ground"]
+
+
+def _not_level(value: float) -> float:
+    if value == 0.0:
+        raise ValueError("must be above or below 0; level ground needs no piece of terrain")
+    return value
 
 
 class PlankConfig(StrictModel):
@@ -51,12 +57,12 @@ class StepConfig(StrictModel):
 
     Attributes:
         edge_x_m: in [m].
-        height_m: positive up, negative down, in [m].
+        height_m: positive up, negative down, not 0, in [m].
     """
 
     kind: Literal["step"]
     edge_x_m: float
-    height_m: float
+    height_m: Annotated[float, AfterValidator(_not_level)]
 
     def lowest(self) -> float:
         """Return the height of the ground that the piece descends to, in [m]."""
@@ -75,14 +81,14 @@ class SlopeConfig(StrictModel):
     Attributes:
         start_x_m: where the ramp begins in [m].
         length_m: horizontal length in [m].
-        angle_deg: positive up, negative down, in [deg].
+        angle_deg: positive up, negative down, not 0, in [deg].
         width_m: extent along y in [m].
     """
 
     kind: Literal["slope"]
     start_x_m: float
     length_m: Positive
-    angle_deg: Annotated[float, Field(gt=-60.0, lt=60.0)]
+    angle_deg: Annotated[float, Field(gt=-60.0, lt=60.0), AfterValidator(_not_level)]
     width_m: Positive
 
     def rise(self) -> float:

@@ -64,6 +64,9 @@ class ControllerConfig(NamedPartConfig, Protocol):
 class TrialConfig(StrictModel):
     """One trial, complete: equal configurations give equal trials.
 
+    The one exception is a planner that its clock ends, ``planner.max_wall_time_s`` of ``vertex_zmp`` with Ipopt or
+    ``planner.sqp.max_wall_time_s`` of ``kinematic_sqp``: that depends on the machine, and the outcome's reason says so.
+
     Attributes:
         robot, gait, command, scenario, simulation, log, failure: see their classes.
         replanning: whether the motion is planned again on the way.

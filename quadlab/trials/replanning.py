@@ -23,7 +23,7 @@ class ReplanningConfig(StrictModel):
     Attributes:
         period_s: time between two plans in [s]; None plans once, before the motion.
         shortest_phase_s: planning waits while the next switch of contacts is nearer than this, in [s]: so late a new
-            foothold would only tear at the foot.
+            foothold would only tear at the foot. Waypoints that are nearer are left out, except the goal.
         all_feet_down: planning waits for all legs to stand, as planners that move joints need it.
     """
 
@@ -71,7 +71,8 @@ class Replanner:
             return None
         self._next_s = state.time_s + (self.config.period_s or 0.0)
         self.attempts += 1
-        outcome = solved(self.planner, remaining_problem(self.problem, progress, self.robot, state))
+        rest = remaining_problem(self.problem, progress, self.robot, state, self.config.shortest_phase_s)
+        outcome = solved(self.planner, rest)
         if outcome.plan is None:
             self.failures += 1
             return f"replanning failed, the old plan holds: {outcome.status}: {outcome.reason}"
@@ -104,7 +105,7 @@ class Replanner:
 
 
 def remaining_problem(
-    problem: PlanningProblem, progress: PlanProgress, robot: RobotModel, state: RobotState
+    problem: PlanningProblem, progress: PlanProgress, robot: RobotModel, state: RobotState, shortest_phase_s: float
 ) -> PlanningProblem:
     """Return what is left of ``problem``, seen from where the robot is.
 
@@ -116,6 +117,7 @@ def remaining_problem(
         progress: of the controller.
         robot: that moves.
         state: as measured.
+        shortest_phase_s: a waypoint that is nearer than this is left out unless it is the goal, in [s].
     """
     kinematics = robot.kinematics(state)
     waypoints = _displaced(problem.waypoints, progress.plan_pose_in_world)
@@ -127,7 +129,7 @@ def remaining_problem(
     pose, yaw_rate = np.array([*start.com_position, yaw]), float(kinematics.base_angular_velocity[2])
     return PlanningProblem(
         start=start,
-        waypoints=_remaining_waypoints(waypoints, progress.plan_time_s, pose, yaw_rate),
+        waypoints=_remaining_waypoints(waypoints, progress.plan_time_s, pose, yaw_rate, shortest_phase_s),
         schedule=standing_on(problem.schedule.after(progress.plan_time_s), progress.standing),
         model=problem.model,
         robot=problem.robot,
@@ -153,8 +155,16 @@ def _displaced(waypoints: Waypoints, pose: Array) -> Waypoints:
     return Waypoints(waypoints.times_s, np.column_stack([positions, waypoints.poses[:, 2] + pose[2]]))
 
 
-def _remaining_waypoints(waypoints: Waypoints, time_s: float, pose: Array, yaw_rate: float) -> Waypoints:
-    """Return ``pose``, (3,), now and the waypoints after ``time_s`` in [s]; ``yaw_rate`` now in [rad/s]."""
-    later = waypoints.times_s > time_s + _TIME_TOLERANCE
+def _remaining_waypoints(
+    waypoints: Waypoints, time_s: float, pose: Array, yaw_rate: float, shortest_s: float
+) -> Waypoints:
+    """Return ``pose``, (3,), now and the waypoints after ``time_s`` in [s]; ``yaw_rate`` now in [rad/s].
+
+    Waypoints on the way that are nearer than ``shortest_s`` in [s] are left out: a robot beside its path would have to
+    jump to them. The goal stays however near it is.
+    """
+    nearest_s = np.full(len(waypoints.times_s), max(shortest_s - _TIME_TOLERANCE, _TIME_TOLERANCE))
+    nearest_s[-1] = _TIME_TOLERANCE
+    later = waypoints.times_s - time_s > nearest_s
     times = np.append(0.0, waypoints.times_s[later] - time_s)
     return Waypoints(times, np.concatenate([pose[None], waypoints.poses[later]]), yaw_rate)

@@ -1,4 +1,4 @@
-"""The reduced program is the same problem as the literal one, and its solver solves it."""
+"""The reduced program is the same problem as the paper's formulation, and its solver solves it."""
 
 from dataclasses import replace
 
@@ -30,7 +30,7 @@ def build(robot: str, gait_name: str, command: str) -> FastBuild:
 
 
 @case
-def test_plan_is_that_of_the_literal_program(robot: str, gait_name: str, command: str) -> None:
+def test_plan_is_that_of_the_paper_formulation(robot: str, gait_name: str, command: str) -> None:
     """Tolerances: what a quartic with three collocation points every 0.1 s differs from the exact pendulum."""
     fast = solved(robot, gait_name, command).plan
     paper = plan(problem(robot, gait_name, COMMANDS[command]), transcription="paper").plan
@@ -55,7 +55,7 @@ def test_costs_of_every_iteration_are_reported_by_name(transcription: str) -> No
 
 
 @pytest.mark.parametrize("steps", [16, 4])
-def test_cost_of_the_walks_of_table_one_is_that_of_the_literal_program(steps: int) -> None:
+def test_cost_of_the_walks_of_table_one_is_that_of_the_paper_formulation(steps: int) -> None:
     walk = next(entry for entry in TABLE_ONE if entry.gait == "walk" and entry.steps == steps)
     costs = []
     for transcription in ("fast", "paper"):

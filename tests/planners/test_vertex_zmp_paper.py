@@ -1,4 +1,4 @@
-"""What holds for the literal transcription: CasADi, Ipopt, feet of any shape."""
+"""What holds for the paper's formulation: CasADi, Ipopt, feet of any shape."""
 
 import casadi as ca
 import numpy as np
@@ -13,6 +13,13 @@ def test_iteration_limit_is_an_outcome_in_words_of_ipopt() -> None:
     assert outcome.status is PlanningStatus.SOLVER_LIMIT
     assert "Maximum_Iterations_Exceeded" in outcome.reason
     assert "lip_dynamics_m" in outcome.reason or "range_of_motion_m" in outcome.reason
+    assert "clock" not in outcome.reason
+
+
+def test_reason_says_that_the_clock_ended_it() -> None:
+    outcome = plan(problem("anymal", "walk", COMMANDS["forward"]), max_wall_time_s=1e-6, transcription="paper")
+    assert outcome.status is PlanningStatus.SOLVER_LIMIT
+    assert "the clock ended it, max_wall_time_s" in outcome.reason
 
 
 def test_shorter_polynomials_follow_the_pendulum_better() -> None:

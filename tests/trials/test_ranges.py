@@ -21,6 +21,12 @@ from quadlab.trials.compose import compose_trial
             ["controller.tracking.force_ramp.initial_weight_share=5"],
             "initial_weight_share must not be above maximum_weight_share; are 5 and 2",
         ),
+        (["scenario=step_down", "scenario.terrain.0.height_m=0"], "scenario.terrain[0].height_m"),
+        (["scenario=step_down", "scenario.terrain.0.height_m=0.0"], "must be above or below 0; level ground"),
+        (["scenario=slope", "scenario.terrain.0.angle_deg=0"], "must be above or below 0; level ground"),
+        (["scenario=plank", "scenario.terrain.0.height_m=0"], "scenario.terrain[0].height_m"),
+        (["scenario=plank", "scenario.terrain.0.length_m=0"], "scenario.terrain[0].length_m"),
+        (["scenario=plank", "scenario.terrain.0.width_m=0"], "scenario.terrain[0].width_m"),
         (["controller=projected_inverse_dynamics", "controller.rank_tolerance=10"], "controller.rank_tolerance"),
         (
             ["controller=weighted", "controller.levels.0.name=weighted"],

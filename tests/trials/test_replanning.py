@@ -23,6 +23,8 @@ from quadlab.trials.replanning import Replanner, ReplanningConfig, remaining_pro
 from quadlab.trials.result import TrialResult, TrialStatus
 from quadlab.trials.runner import run_trial
 
+SHORTEST_PHASE_S = 0.05
+
 
 @dataclass(frozen=True)
 class Planned:
@@ -72,7 +74,7 @@ def test_planning_from_the_planned_state_gives_the_rest_of_the_plan(trot: Planne
     switches = trot.plan.schedule.switch_times_s
     cut_s = float(switches[phase] + share * (switches[phase + 1] - switches[phase]))
     state = planned_state(trot, cut_s)
-    rest = remaining_problem(trot.problem, planned_progress(trot.plan, cut_s), trot.robot, state)
+    rest = remaining_problem(trot.problem, planned_progress(trot.plan, cut_s), trot.robot, state, SHORTEST_PHASE_S)
     again = trot.planner.solve(trot.planner.build(rest)).plan
     assert again is not None
     assert again.duration_s == pytest.approx(trot.plan.duration_s - cut_s)
@@ -87,7 +89,9 @@ def test_walk_of_splines_is_found_again_within_its_optimum() -> None:
     """The acceleration at the cut is free in the new plan: it may be better than the rest of the old one, not worse."""
     walk = planned("gait=walk", "planner=zmp_spline", "duration_s=7")
     cut_s = 2.5
-    rest = remaining_problem(walk.problem, planned_progress(walk.plan, cut_s), walk.robot, planned_state(walk, cut_s))
+    rest = remaining_problem(
+        walk.problem, planned_progress(walk.plan, cut_s), walk.robot, planned_state(walk, cut_s), SHORTEST_PHASE_S
+    )
     again = walk.planner.solve(walk.planner.build(rest)).plan
     assert again is not None
     times = np.linspace(cut_s, walk.plan.duration_s, 4001)
@@ -100,12 +104,34 @@ def test_walk_of_splines_is_found_again_within_its_optimum() -> None:
 def test_waypoints_lie_where_the_plan_was_carried(trot: Planned) -> None:
     pose = np.array([0.3, -0.2, 0.1])
     progress = replace(planned_progress(trot.plan, 1.0), plan_pose_in_world=pose)
-    rest = remaining_problem(trot.problem, progress, trot.robot, planned_state(trot, 1.0))
+    rest = remaining_problem(trot.problem, progress, trot.robot, planned_state(trot, 1.0), SHORTEST_PHASE_S)
     goal = trot.problem.waypoints.poses[-1]
     np.testing.assert_allclose(rest.waypoints.poses[-1, :2], pose[:2] + rotation_2d(0.1) @ goal[:2])
     assert rest.waypoints.poses[-1, 2] == pytest.approx(goal[2] + 0.1)
     np.testing.assert_allclose(rest.waypoints.poses[0], [*rest.start.com_position, rest.start.yaw])
     assert rest.waypoints.times_s[-1] == pytest.approx(rest.schedule.duration_s)
+
+
+@pytest.mark.parametrize("before_s", [1e-4, 0.02, 0.049, 0.05, 0.2])
+def test_heading_need_not_jump_to_a_waypoint_that_is_too_near(trot: Planned, before_s: float) -> None:
+    """A robot that is 0.1 rad off its heading just before the end of a stride has the next stride to turn back."""
+    stride_end_s = float(trot.problem.waypoints.times_s[2])
+    cut_s = stride_end_s - before_s
+    pushed = replace(planned_state(trot, cut_s), quat_wxyz=np.array([np.cos(0.05), 0.0, 0.0, np.sin(0.05)]))
+    rest = remaining_problem(trot.problem, planned_progress(trot.plan, cut_s), trot.robot, pushed, SHORTEST_PHASE_S)
+    times = rest.waypoints.times_s
+    assert times[0] == 0.0
+    assert (times[1] == pytest.approx(before_s)) == (before_s >= SHORTEST_PHASE_S)
+    assert np.abs(np.diff(rest.waypoints.poses[:, 2]) / np.diff(times)).max() < 0.1 / SHORTEST_PHASE_S + 1e-6
+
+
+@pytest.mark.parametrize("before_s", [1e-4, 0.02, 0.2])
+def test_the_goal_stays_however_near_it_is(trot: Planned, before_s: float) -> None:
+    cut_s = trot.plan.duration_s - before_s
+    state, progress = planned_state(trot, cut_s), planned_progress(trot.plan, cut_s)
+    rest = remaining_problem(trot.problem, progress, trot.robot, state, SHORTEST_PHASE_S)
+    np.testing.assert_allclose(rest.waypoints.times_s, [0.0, before_s], atol=1e-9)
+    np.testing.assert_allclose(rest.waypoints.poses[-1], trot.problem.waypoints.poses[-1])
 
 
 def test_legs_that_stand_lose_the_rest_of_their_swing_only() -> None:

@@ -43,7 +43,8 @@ class SqpConfig(StrictModel):
 
     Attributes:
         max_iterations: limit; more is reported as solver_limit.
-        max_wall_time_s: limit, looked at between iterations, in [s].
+        max_wall_time_s: limit, looked at between iterations, in [s]; whether it ends them depends on the machine, and
+            the reason says so.
         convergence: the objective has converged when neither the model nor the step changes it by more than this share.
         damping: added to the diagonal of the Gauss-Newton Hessian.
         armijo: smallest share of the predicted decrease that a step must reach.
@@ -69,7 +70,8 @@ class KinematicSqpConfig(StrictModel):
 
     Attributes:
         name: of the planner in results; several files may be of one kind.
-        samples_per_cycle: samples of a cycle with steps.
+        samples_per_cycle: samples of a cycle with steps; contacts switch at the samples nearest to the switches of the
+            schedule, by which the checker judges.
         samples_per_rest: largest number of samples of a stance before, between or after the steps.
         clearance_m: height of a foot in the middle of its swing in [m].
         least_load: smallest share w_min of a foot that carries, Eq. (8).

@@ -33,7 +33,8 @@ class SampleGrid:
     """The samples of a chain of cycles, each cycle once.
 
     The flags c_{k,i} of the paper belong to the interval that ends with sample i: then Eq. (4) says that a foot does
-    not move while it stands, and a swing begins and ends exactly where the schedule says.
+    not move while it stands. A swing begins and ends at the samples nearest to the switches of the schedule, at most
+    half a sample period beside them; the checker judges the plan by the exact schedule.
 
     Attributes:
         times_s: (N,) in [s]; repetitions left out.
@@ -55,6 +56,13 @@ class SampleGrid:
         """Distances of the samples, (N - 1,) in [s]."""
         periods: Array = np.diff(self.times_s)
         return periods
+
+    @cached_property
+    def unrolled_times_s(self) -> Array:
+        """When the samples are with every cycle as often as it runs, (M,) in [s]."""
+        runs = [self.periods_s[span.first : span.last] for span in self.spans for _ in range(span.cycle.repeats)]
+        times: Array = np.cumsum(np.concatenate([[0.0], *runs]))
+        return times
 
     @property
     def ends_at_rest(self) -> bool:

@@ -15,6 +15,7 @@ from quadlab.planners.kinematic_sqp.program import KinematicProgram
 from quadlab.planners.kinematic_sqp.solution import motion_plan
 from quadlab.planners.kinematic_sqp.sqp import Minimum, minimise
 from quadlab.planners.kinematic_sqp.step_problem import inequality_rows
+from quadlab.planners.kinematic_sqp.switches import beside_samples
 from quadlab.planners.kinematic_sqp.transcription import transcribe
 from quadlab.planners.plan import PlanReport
 from quadlab.planners.planner import PlanningOutcome, PlanningStatus
@@ -87,8 +88,10 @@ class KinematicSqpPlanner:
         plan = motion_plan(problem, program, minimum.p, _report(transcription, minimum, residuals | misses))
         verdict = check_plan(plan, problem, _checker(config, problem.schedule))
         if not verdict.accepted:
-            found = _above(verdict.values, verdict.tolerances)
-            return PlanningOutcome(PlanningStatus.REJECTED, f"the checker found {found}", None)
+            found = f"the checker found {_above(verdict.values, verdict.tolerances)}"
+            times_s, samples = program.grid.unrolled_times_s, config.samples_per_cycle
+            beside = beside_samples(problem.schedule, problem.waypoints, times_s, samples)
+            return PlanningOutcome(PlanningStatus.REJECTED, "; ".join(filter(None, (found, beside))), None)
         return PlanningOutcome(PlanningStatus.SOLVED, minimum.reason, replace(plan, verdict=verdict))
 
 

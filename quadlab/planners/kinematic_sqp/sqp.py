@@ -88,9 +88,12 @@ def _end(iterations: int, change: float, elapsed_s: float, config: SqpConfig) ->
     """Return why the iteration ends here, or nothing if it goes on."""
     if change <= config.convergence:
         return f"converged in {iterations} iterations"
-    if iterations < config.max_iterations and elapsed_s < config.max_wall_time_s:
+    if iterations >= config.max_iterations:
+        return f"no convergence in {iterations} iterations and {elapsed_s:.2f} s"
+    if elapsed_s < config.max_wall_time_s:
         return ""
-    return f"no convergence in {iterations} iterations and {elapsed_s:.2f} s"
+    limit = f"max_wall_time_s {config.max_wall_time_s:g}"
+    return f"no convergence: the clock ended it after {iterations} iterations, {limit}"
 
 
 def _change(current: Iterate, following: Iterate, step: Array, model: Linearisation) -> float:

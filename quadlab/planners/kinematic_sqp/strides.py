@@ -24,7 +24,8 @@ class Cycle:
     Attributes:
         periods_s: distances of its samples, (samples,) in [s].
         increment: commanded displacement x, y in [m] and turn in [rad], seen from where it begins, (3,).
-        contacts: which legs stand between neighbouring samples, (samples, 4).
+        contacts: which legs stand between neighbouring samples, (samples, 4): those that the schedule has standing in
+            the middle between them, so that a switch moves by at most half a sample period.
         moves: whether a leg swings in it; a cycle in which none does is a rest.
         periodic: whether it ends in the joint positions in which it begins, Eq. (10).
         repeats: how often it runs.

@@ -59,7 +59,7 @@ def unroll(layout: SampleLayout, grid: SampleGrid, p: Array) -> UnrolledMotion:
     A run of a periodic cycle begins where the run before ended: with the planar motion T that takes the base from its
     pose at the first to that at the last sample of the cycle, run r is the first one moved by T^(r-1).
     """
-    periods, samples, motions = [0.0], [0], [PlanarMotion(0.0, np.zeros(2))]
+    samples, motions = [0], [PlanarMotion(0.0, np.zeros(2))]
     moved = motions[0]
     for span in grid.spans:
         once = _cycle_motion(layout, p, span.first, span.last)
@@ -67,9 +67,8 @@ def unroll(layout: SampleLayout, grid: SampleGrid, p: Array) -> UnrolledMotion:
             moved = moved.after(once) if run else moved
             numbers = range(span.first + 1, span.last + 1)
             samples += numbers
-            periods += [float(grid.periods_s[number - 1]) for number in numbers]
             motions += [moved] * len(numbers)
-    return _moved(layout, p, np.cumsum(periods), np.array(samples, dtype=np.intp), motions)
+    return _moved(layout, p, grid.unrolled_times_s, np.array(samples, dtype=np.intp), motions)
 
 
 def _cycle_motion(layout: SampleLayout, p: Array, first: int, last: int) -> PlanarMotion:

@@ -13,8 +13,8 @@ class VertexZmpConfig(StrictModel):
 
     Attributes:
         name: of the planner in results; several files may be of one kind.
-        transcription: ``paper`` is the literal program of Winkler 2017 in CasADi for Ipopt; ``fast`` is the same
-            problem reduced: exact pendulum motion, loads of feet in contact only, own solver; point feet only.
+        transcription: ``paper`` is the formulation of Winkler 2017, with additions, in CasADi for Ipopt; ``fast`` is
+            the same problem reduced: exact pendulum motion, loads of feet in contact only, own solver; point feet only.
         polynomial_duration_s: longest polynomial T_k of the CoM spline in [s]; for ``fast`` the longest time between
             load nodes.
         robustness_weight: weight of J_lambda, Eq. (21), in [1/s].
@@ -24,7 +24,8 @@ class VertexZmpConfig(StrictModel):
         waypoint_weight: weight of the squared distance of the CoM from intermediate waypoints in [1/m^2].
         reach_margin_m: how much smaller than the reach of the model the enforced box is, to every side, in [m].
         max_iterations: limit of the solver; for ``fast`` over all its attempts together.
-        max_wall_time_s: limit of Ipopt in [s]; ``fast`` does not look at the clock.
+        max_wall_time_s: limit of Ipopt in [s]; whether it ends the iteration depends on the machine, and the reason
+            says so. ``fast`` does not look at the clock.
         solver_tolerance: convergence tolerance of the solver.
         residual_tolerance: largest residual of any constraint set in its own unit ([m], [m/s] or none).
         checker: tolerances of the independent checker.

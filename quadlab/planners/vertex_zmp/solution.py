@@ -17,7 +17,7 @@ class Solution:
         x: last iterate.
         status: the solver's name and its own word for how it ended.
         converged: whether the solver says that it found an optimum.
-        infeasible: whether the solver says that the constraints contradict each other (near its last iterate).
+        infeasible: whether the solver says that its last iterate is a local least violation of the constraints.
         iterations: how many it took.
         solve_ms: wall time in [ms].
         costs: weighted costs by name.

@@ -13,7 +13,7 @@ HYQ = PlanningModel(
     nominal_feet=np.array([[0.37, 0.27], [0.37, -0.27], [-0.37, 0.27], [-0.37, -0.27]]),  # [m]
     reach=np.array([0.20, 0.15]),  # [m]
 )
-"""HyQ as the planner of the paper sees it; the paper states the height, the other values are of its stance."""
+"""A model of HyQ's size: the paper states the height, stance and reach are values of ours."""
 
 _PHASES: dict[str, tuple[tuple[float, str], ...]] = {
     "walk": ((0.4, "LH"), (0.4, "LF"), (0.4, "RH"), (0.4, "RF")),

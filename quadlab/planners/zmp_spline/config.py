@@ -20,7 +20,8 @@ class ZmpSplineConfig(StrictModel):
             price a squared distance and second, in [1/s^4]: the only way to plan for supports that are lines.
         reach_margin_m: how much smaller than the reach of the model the box of every foot is, in [m]; None leaves the
             legs' range of motion to the controller, as the paper does.
-        support_centre_weight: weight of the squared distance of the ZMP from the middle of the support in [1/s^4].
+        support_centre_weight: weight of the squared distance of the ZMP from the middle of the support inside its
+            margin, or of the whole support if nothing is inside, in [1/s^4].
         waypoint_weight: weight of the squared distance of the CoM from intermediate waypoints in [1/s^3].
         qp_solver: by its name in qpsolvers.
         qp_tolerance: absolute tolerance asked of the solver.

@@ -78,18 +78,21 @@ class ZmpSplinePlanner:
         answer: QpAnswer,
         violated: Mapping[str, float],
     ) -> PlanningOutcome:
-        """Return what the constraints contradict in, or that the solver did not get as far as it should."""
+        """Return what the constraints contradict in, or that the solver did not get as far as it should.
+
+        The program is convex: what its closest motion, found to within the tolerance, violates by more than the
+        elasticity of the bounds, every motion violates.
+        """
         relaxed = elastic(transcription.model.grid, transcription.problem, program)
         freed = solve_program(relaxed, self.config.qp_solver, self.config.qp_tolerance)
         states = relaxed.states(freed.solution)
-        left = {
-            name: value
-            for name, value in relaxed.violations(states).items()
-            if value > _CONTRADICTION_M and np.isfinite(freed.residual)
-        }
-        if not left:
+        left = {name: value for name, value in relaxed.violations(states).items() if value > _CONTRADICTION_M}
+        if not left or not freed.residual <= self.config.optimality_tolerance:
             sets = ", ".join(f"{name} {value:.2e}" for name, value in violated.items()) or "none"
-            reason = f"{self.config.qp_solver}: optimality residual {answer.residual:.1e}; violated sets: {sets}"
+            reason = (
+                f"{self.config.qp_solver} failed: optimality residual {answer.residual:.1e}, "
+                f"{freed.residual:.1e} with elastic constraints; violated sets: {sets}"
+            )
             return PlanningOutcome(PlanningStatus.SOLVER_LIMIT, reason, None)
         worst = sorted(left.items(), key=lambda item: item[1], reverse=True)
         sets = ", ".join(f"{n} {v:.3f} at {relaxed.worst_time_s(n, states):.2f} s" for n, v in worst)

@@ -16,22 +16,18 @@ class SupportPolygon:
         normals: outward unit normals of the edges, (e, 2); the two sides and ends of a line if the hull is one.
         offsets: (e,) in [m].
         corners: counter-clockwise, (k, 2) in [m]; none if nothing is left inside the margin.
+        middle: mean of the corners, of those of the hull itself if nothing is left inside the margin, (2,) in [m].
     """
 
     normals: Array
     offsets: Array
     corners: Array
+    middle: Array
 
     @property
     def is_empty(self) -> bool:
         """Whether no point is inside."""
         return len(self.corners) == 0
-
-    @property
-    def middle(self) -> Array:
-        """Mean of the corners, (2,) in [m]."""
-        middle: Array = self.corners.mean(axis=0)
-        return middle
 
 
 def support_polygon(points: Array, margin: float) -> SupportPolygon:
@@ -43,7 +39,7 @@ def support_polygon(points: Array, margin: float) -> SupportPolygon:
     corners = hull
     for normal, offset in zip(normals, offsets, strict=True):
         corners = _clipped(corners, normal, float(offset))
-    return SupportPolygon(normals, offsets, corners)
+    return SupportPolygon(normals, offsets, corners, (corners if len(corners) else hull).mean(axis=0))
 
 
 def _edges(hull: Array) -> tuple[Array, Array]:

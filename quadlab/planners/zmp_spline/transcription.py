@@ -48,7 +48,7 @@ def transcribe(problem: PlanningProblem, config: ZmpSplineConfig) -> SplineTrans
     if not soft and any(support.is_empty for support in model.supports):
         return SplineTranscription(model, None, 1e3 * (time.perf_counter() - began))
     costs = [com_acceleration(model)]
-    if config.support_centre_weight and not any(support.is_empty for support in model.supports):
+    if config.support_centre_weight:
         costs.append(support_centre(model, config.support_centre_weight))
     if config.waypoint_weight and len(problem.waypoints.times_s) > 2:
         costs.append(waypoint(model, config.waypoint_weight))

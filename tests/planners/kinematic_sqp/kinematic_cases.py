@@ -97,6 +97,16 @@ def problem(robot_name: str, motion: Motion, state: RobotState | None = None) ->
     )
 
 
+def beside_path(asked: PlanningProblem, offset: Array) -> PlanningProblem:
+    """Return a problem whose path is moved by ``offset``, x, y in [m] and yaw in [rad], except where the robot is.
+
+    So is a problem of planning again in the first stance, after a push.
+    """
+    poses = asked.waypoints.poses + offset
+    poses[0] = asked.waypoints.poses[0]
+    return replace(asked, waypoints=replace(asked.waypoints, poses=poses))
+
+
 def perturbed(model: RobotModel, random: np.random.Generator, scale: float = 1.0) -> RobotState:
     """Return a stance with another pose, other joints and a small velocity."""
     state = model.nominal_state()

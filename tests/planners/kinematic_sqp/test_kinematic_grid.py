@@ -4,11 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kinematic_cases import PAPER_MOTIONS, WHOLE_MOTIONS, Motion, problem
+from kinematic_cases import PAPER_MOTIONS, WHOLE_MOTIONS, Motion, beside_path, problem
 
 from quadlab.gaits.schedule import ContactSchedule
+from quadlab.geometry.rotations import Array
+from quadlab.planners.command import compose
 from quadlab.planners.kinematic_sqp.grid import SampleGrid, sample_grid
+from quadlab.planners.kinematic_sqp.objectives.commanded_spans import commanded_spans
 from quadlab.planners.kinematic_sqp.strides import cycle_chain
+from quadlab.planners.kinematic_sqp.switches import beside_samples
 from quadlab.planners.problem import Waypoints
 
 
@@ -85,3 +89,36 @@ def test_standing_alone_is_one_rest() -> None:
     assert len(samples.spans) == 1
     assert samples.ends_at_rest
     assert not samples.wraps
+
+
+def beside(motion: Motion, samples_per_cycle: int) -> str:
+    asked = problem("anymal_b", motion)
+    samples = sample_grid(cycle_chain(asked, samples_per_cycle, 8), asked.start.yaw)
+    return beside_samples(asked.schedule, asked.waypoints, samples.unrolled_times_s, samples_per_cycle)
+
+
+@pytest.mark.parametrize("motion", WHOLE_MOTIONS)
+def test_switches_of_the_paper_lie_on_samples(motion: str) -> None:
+    assert beside(WHOLE_MOTIONS[motion], 16) == ""
+
+
+def test_switches_between_samples_are_told_with_how_many_samples_would_meet_them() -> None:
+    pace = Motion(("pace",) * 4, (0.8,) * 4, (0.1, 0.0, 0.0), 0.4)
+    assert beside(pace, 16) == (
+        "contact switches lie up to 20 ms beside samples; planner.samples_per_cycle=20 would meet them"
+    )
+    assert beside(pace, 20) == ""
+
+
+@pytest.mark.parametrize("offset", [np.zeros(3), np.array([-0.02, 0.04, 0.1])], ids=["on the path", "beside the path"])
+@pytest.mark.parametrize("motion", WHOLE_MOTIONS)
+def test_what_is_commanded_leads_from_the_start_to_the_goal(motion: str, offset: Array) -> None:
+    """Rests included: what is left of the first stance leads a robot beside its path back to it."""
+    asked = beside_path(problem("anymal_b", WHOLE_MOTIONS[motion]), offset)
+    samples = sample_grid(cycle_chain(asked, 16, 8), asked.start.yaw)
+    repeats = [span.cycle.repeats for span in samples.spans if span.cycle.moves]
+    pose = asked.waypoints.poses[0]
+    for span, runs in zip(commanded_spans(samples), repeats, strict=True):
+        for _ in range(runs):
+            pose = compose(pose, span.increment)
+    np.testing.assert_allclose(pose, asked.waypoints.poses[-1], atol=1e-12)

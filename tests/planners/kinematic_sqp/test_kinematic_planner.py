@@ -5,7 +5,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kinematic_cases import PAPER_MOTIONS, ROBOTS, WHOLE_MOTIONS, Motion, perturbed, planner, problem, robot
+from kinematic_cases import (
+    PAPER_MOTIONS,
+    ROBOTS,
+    WHOLE_MOTIONS,
+    Motion,
+    beside_path,
+    perturbed,
+    planner,
+    problem,
+    robot,
+)
 
 from quadlab.errors import PlanningProblemError
 from quadlab.geometry.splines import PiecewisePolynomial
@@ -81,6 +91,16 @@ def test_perturbed_start_is_met_exactly() -> None:
     np.testing.assert_allclose(found.plan.com(0.0, 1)[:2], asked.start.com_velocity, atol=1e-9)
 
 
+def test_robot_beside_its_path_comes_back_to_it() -> None:
+    kinematic = planner()
+    asked = beside_path(problem("anymal_b", WHOLE_MOTIONS["trot"]), np.array([0.0, 0.06, 0.15]))
+    found = kinematic.solve(kinematic.build(asked))
+    assert found.plan is not None, found.reason
+    end, goal = found.plan.duration_s, asked.waypoints.poses[-1]
+    assert abs(float(found.plan.com(end)[1]) - goal[1]) < 0.02
+    assert abs(float(found.plan.heading(end)[0]) - goal[2]) < 0.05
+
+
 def test_open_motion_is_rejected_because_it_does_not_stop() -> None:
     found = outcome("anymal_b", PAPER_MOTIONS["trot"])
     assert found.status is PlanningStatus.REJECTED
@@ -100,6 +120,14 @@ def test_iteration_limit_is_a_status() -> None:
     found = kinematic.solve(kinematic.build(problem("anymal_b", PAPER_MOTIONS["walk"])))
     assert found.status is PlanningStatus.SOLVER_LIMIT
     assert "2 iterations" in found.reason
+    assert "clock" not in found.reason
+
+
+def test_reason_says_that_the_clock_ended_it() -> None:
+    kinematic = planner(sqp={"max_wall_time_s": 1e-6})
+    found = kinematic.solve(kinematic.build(problem("anymal_b", PAPER_MOTIONS["walk"])))
+    assert found.status is PlanningStatus.SOLVER_LIMIT
+    assert "the clock ended it after 1 iterations, max_wall_time_s 1e-06" in found.reason
 
 
 def test_contradictory_constraints_are_infeasible() -> None:

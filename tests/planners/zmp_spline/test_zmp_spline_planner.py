@@ -147,6 +147,34 @@ def test_contradiction_names_the_constraints_and_when() -> None:
     assert " s" in outcome.reason
 
 
+def test_constraints_are_not_said_to_contradict_where_the_solver_has_failed() -> None:
+    still = problem("anymal", "stand", COMMANDS["in_place"])
+    falling = replace(still, start=standing(still.model, np.array([2.0, 0.0])))
+    outcome = spline_plan(falling, optimality_tolerance=1e-300)
+    assert outcome.status is PlanningStatus.SOLVER_LIMIT
+    assert outcome.reason.startswith("piqp failed: optimality residual ")
+    assert "with elastic constraints" in outcome.reason
+
+
+def test_zmp_can_be_drawn_to_the_middle_of_supports_without_area() -> None:
+    """Of a trot's two feet, here: the more it counts, the nearer to the point halfway between them."""
+    trot = problem("anymal", "trot", COMMANDS["forward"])
+    loose = {**SETTINGS["checker"], "cop_outside_mm": 100.0}
+    distances = []
+    for weight in (0.0, 1e3):
+        plan = spline_plan(trot, support_slack_weight=1e4, support_centre_weight=weight, checker=loose).plan
+        assert plan is not None
+        found = []
+        for time in np.linspace(0.0, plan.duration_s, 301):
+            legs = np.flatnonzero(plan.schedule.contacts_at(time)).tolist()
+            feet = [plan.footholds[leg][plan.schedule.swing_at(leg, time)[0], :2] for leg in legs]
+            if len(feet) == 2:
+                found.append(float(np.linalg.norm(plan.cop(time) - np.mean(feet, axis=0))))
+        distances.append(np.mean(found))
+        assert ("support_centre" in plan.report.costs) == (weight > 0.0)
+    assert distances[1] < distances[0]
+
+
 def test_rejection_by_the_checker_is_an_outcome() -> None:
     outcome = spline_plan(walk(), checker={**SETTINGS["checker"], "goal_heading_miss_mrad": 0.0, "com_jump_mm": 0.0})
     assert outcome.status is PlanningStatus.REJECTED

@@ -1,4 +1,4 @@
-"""The plan begins in the measured pose (Gehring 2017, Section IV) and with the measured velocity."""
+"""The plan begins in the measured pose (Gehring 2017, Section IV), CoM and heading with the measured velocity."""
 
 import numpy as np
 
@@ -20,8 +20,10 @@ def start_pose(layout: SampleLayout, start: StartSample) -> Equality:
 def start_velocity(layout: SampleLayout, start: StartSample, period_s: float) -> Equality:
     """Return the second sample of base and CoM: first sample + period x velocity.
 
-    The curve through the samples then has the measured position and velocity at its start, with no acceleration. The
-    paper constrains the pose alone; a curve that begins at rest is what the real robot can follow.
+    The curves of CoM and heading through the samples then have the measured position and velocity at their start, with
+    no acceleration. That of the base's pose, which passes through the same samples, begins at rest whatever the
+    velocity (``quadlab/geometry/pose_curve.py``). The paper constrains the pose alone; a
+    CoM that keeps its velocity is what the real robot can follow.
 
     Args:
         layout: of p.

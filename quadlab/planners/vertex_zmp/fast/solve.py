@@ -1,4 +1,4 @@
-"""From a bilinear program to an answer: attempts one after the other, and a proof of contradiction if all fail."""
+"""From a bilinear program to an answer: attempts one after the other, and a local least violation on the way."""
 
 import time
 from collections.abc import Iterator
@@ -43,9 +43,10 @@ def prepare(program: BilinearProgram) -> PreparedProgram:
 
 
 def solve(prepared: PreparedProgram, guess: Array, config: VertexZmpConfig) -> Solution:
-    """Solve from ``guess``; if that fails look for the least violation of all constraints and go on from there.
+    """Solve from ``guess``; if that fails look for a local least violation of all constraints and go on from there.
 
-    If even the least violation is more than the tolerance, the constraints contradict each other.
+    If even that is more than the tolerance, the program counts as infeasible. This is no proof: the constraints are
+    bilinear, and elsewhere they may have a solution.
     """
     begin = time.perf_counter()
     program, spent, first = prepared.program, 0, guess
@@ -58,7 +59,7 @@ def solve(prepared: PreparedProgram, guess: Array, config: VertexZmpConfig) -> S
         spent += answer.iterations
         iterates.append(answer.iterates)
         if settings.elastic > 0.0:
-            infeasible = _contradicts(program, answer, config.residual_tolerance)
+            infeasible = _is_infeasible(program, answer, config.residual_tolerance)
             first = answer.z if np.isfinite(answer.z).all() else guess
         elif answer.end == CONVERGED:
             word = "converged" if attempt == 0 else f"converged in attempt {attempt + 1} ({name})"
@@ -66,12 +67,12 @@ def solve(prepared: PreparedProgram, guess: Array, config: VertexZmpConfig) -> S
         if infeasible or spent >= config.max_iterations:
             break
     if infeasible:
-        word = "constraints contradict each other"
+        word = "local least violation of the constraints is above the tolerance"
     return _solution(program, answer, iterates, spent, word, False, infeasible, begin)
 
 
 def _attempts(program: BilinearProgram, config: VertexZmpConfig) -> Iterator[tuple[str, Settings]]:
-    """Yield settings from fast to careful; after the first the least violation is looked for."""
+    """Yield settings from fast to careful; after the first a local least violation is looked for."""
     indifferent = not program.cost_rows
     usual = Settings(
         max_iterations=_ATTEMPT_LIMIT,
@@ -99,7 +100,7 @@ def _without_costs(arrays: ProgramArrays) -> ProgramArrays:
     return arrays._replace(h_values=np.zeros_like(arrays.h_values), gradient=np.zeros_like(arrays.gradient))
 
 
-def _contradicts(program: BilinearProgram, answer: Answer, tolerance: float) -> bool:
+def _is_infeasible(program: BilinearProgram, answer: Answer, tolerance: float) -> bool:
     return answer.end == CONVERGED and max(program.residuals(answer.z).values()) > tolerance
 
 

@@ -1,4 +1,4 @@
-"""The literal transcription with the solver that was made for it."""
+"""The paper's formulation, with additions, and the solver that was made for it."""
 
 import time
 from dataclasses import dataclass
@@ -48,7 +48,7 @@ class PaperBuild:
 
 
 def build_paper(problem: PlanningProblem, config: VertexZmpConfig) -> PaperBuild:
-    """Return the literal program of a well-formed problem and Ipopt for it."""
+    """Return the program of a well-formed problem in the paper's formulation and Ipopt for it."""
     begin = time.perf_counter()
     transcription = transcribe(problem, config)
     solver = make_solver(transcription, config)

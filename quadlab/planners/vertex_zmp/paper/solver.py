@@ -15,6 +15,7 @@ from quadlab.planners.vertex_zmp.paper.transcription import Transcription
 from quadlab.planners.vertex_zmp.solution import Solution
 
 _CONVERGED = ("Solve_Succeeded", "Solved_To_Acceptable_Level")
+_CLOCK = "Maximum_WallTime_Exceeded"
 
 
 @dataclass(frozen=True)
@@ -68,7 +69,7 @@ def run_solver(solver: IpoptSolver, transcription: Transcription) -> Solution:
     status = str(stats["return_status"])
     return Solution(
         x=x,
-        status=f"Ipopt: {status}",
+        status=f"Ipopt: {status}" + (" (the clock ended it, max_wall_time_s)" if status == _CLOCK else ""),
         converged=status in _CONVERGED,
         infeasible=status == "Infeasible_Problem_Detected",
         iterations=int(stats["iter_count"]),
