@@ -14,6 +14,7 @@ from quadlab.analysis.artefact import Claim, Verdict
 from quadlab.analysis.paired import pairs
 from quadlab.analysis.statistics import CONFIDENCE, holm_adjusted, paired_mean_difference, sign_flip_probability
 from quadlab.analysis.study_results import StudyResults
+from quadlab.errors import LogError
 from quadlab.plotting.style import NEUTRAL, SERIES, TEXT_WIDTH, paper_style
 
 RELEVANT_PERCENT = 2.0
@@ -176,10 +177,19 @@ def averaged(table: pd.DataFrame, question: Question, column: str) -> tuple[pd.D
 
 
 def row_of(question: Question, name: str, measure: Measure, rows: pd.DataFrame) -> dict[str, object]:
-    """Return what ``numbers`` says of a question and a measure, before the correction for the number of rows."""
+    """Return what ``numbers`` says of a question and a measure, before the correction for the number of rows.
+
+    Raises:
+        LogError: if there is no pair.
+    """
     levels = question.first, question.second
     means, same = averaged(rows, question, measure.column)
     wide = pairs(means, question.factor, levels, same, measure.column)
+    if wide.empty:
+        raise LogError(
+            f"{STUDY}: no pair to tell '{name}' of {question.text}; "
+            f"python experiments/run_study.py {STUDY} runs what is missing"
+        )
     first, second = wide[levels[0]].to_numpy(float), wide[levels[1]].to_numpy(float)
     difference = paired_mean_difference(first, second)
     to_percent = 1.0 if measure.column == COMPLETED else 100.0 / first.mean()

@@ -3,8 +3,9 @@
 import pandas as pd
 import pytest
 
-from paper_figures.comparison.who_wins import MEASURES, asked, averaged, better_of, row_of
+from paper_figures.comparison.who_wins import MEASURES, Measure, asked, averaged, better_of, row_of
 from paper_figures.comparison_variants import Question
+from quadlab.errors import LogError
 
 KINEMATIC_OR_VERTEX = Question("planner", "kinematic_sqp", "vertex_zmp", "controller", ("weighted", "hierarchical"))
 TABLE = pd.DataFrame(
@@ -89,3 +90,11 @@ def test_gait_that_one_of_the_two_cannot_do_is_no_condition() -> None:
     )
     question = Question("planner", "zmp_spline", "vertex_zmp", "controller", ("weighted",))
     assert asked(trials, question).index.to_list() == [0, 1]
+
+
+def test_question_without_a_pair_says_what_is_missing() -> None:
+    error = Measure("error", "error", False)
+    with pytest.raises(LogError, match="no pair to tell 'error' of vertex_zmp minus kinematic_sqp"):
+        row_of(
+            KINEMATIC_OR_VERTEX, error.name, error, TABLE[TABLE["controller"] == "weighted"].assign(disturbance="none")
+        )
