@@ -30,7 +30,7 @@ GAITS = ("trot", "walk")
 def draw(results: StudyResults) -> Figure:
     """Return polar plots, one a gait and controller: straight ahead is up, the radius is the change of velocity."""
     limits = numbers(results)
-    figure = Figure(figsize=(TEXT_WIDTH, 5.0), layout="constrained")
+    figure = Figure(figsize=(TEXT_WIDTH, 5.3), layout="constrained")
     reach_mps = 1.04 * limits["median_mps"].max()
     panels = [(gait, controller) for gait in GAITS for controller in CONTROLLERS]
     for place, (gait, controller) in enumerate(panels, 1):
@@ -38,7 +38,7 @@ def draw(results: StudyResults) -> Figure:
         assert isinstance(axes, PolarAxes)
         _draw_planners(axes, limits[(limits["gait"] == gait) & (limits["controller"] == controller)])
         axes.set_ylim(0.0, reach_mps)
-        axes.set_title(f"{gait}, {short(controller)}", pad=6)
+        axes.set_title(f"{gait}, {short(controller)}", pad=9)
     handles, labels = figure.axes[-1].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(PLANNERS), handlelength=3.0)
     return figure

@@ -44,6 +44,7 @@ class Measure:
         disturbance: rows that count; all if empty.
         by_gait: whether each gait stands for itself, since gaits differ in it.
         searched: whether it is a limit that was searched for.
+        factor: of the questions that it answers; of all if empty.
     """
 
     name: str
@@ -53,6 +54,7 @@ class Measure:
     disturbance: str = ""
     by_gait: bool = False
     searched: bool = False
+    factor: str = ""
 
 
 COMPLETED = "completed"
@@ -65,8 +67,8 @@ MEASURES = (
     Measure("largest CoM error [mm]", "com_error_max_mm", False, by_gait=True),
     Measure("roll and pitch, rms [deg]", "roll_pitch_rms_deg", False),
     Measure("cost of transport [-]", "cost_of_transport", False, by_gait=True),
-    Measure("planning [ms]", "planning_solve_ms", False),
-    Measure("control tick, median [µs]", "control_tick_median_us", False),
+    Measure("planning [ms]", "planning_solve_ms", False, factor="planner"),
+    Measure("control tick, median [µs]", "control_tick_median_us", False, factor="controller"),
 )
 KEYS = ("disturbance", "gait", "direction", "scenario.pushes.0.start_s", "scenario.terrain.0.center_x_m",
         "scenario.terrain.0.edge_x_m", "seed")  # fmt: skip
@@ -76,17 +78,20 @@ KEYS = ("disturbance", "gait", "direction", "scenario.pushes.0.start_s", "scenar
 def draw(results: StudyResults) -> Figure:
     """Return relative differences with their 95 % intervals, one row a measure and one panel a question."""
     table = numbers(results)
-    names = list(dict.fromkeys(table["measure"]))
-    figure = Figure(figsize=(TEXT_WIDTH, 2.0 * (0.16 * len(names) + 0.45)), layout="constrained")
-    panels = figure.subplots(2, len(QUESTIONS) // 2, sharex=True, sharey=True)
-    for axes, question in zip(panels.flat, QUESTIONS, strict=True):
-        axes.set_title(question.text)
-        for _, row in _rows_of(table, question).iterrows():
-            _draw_difference(axes, names.index(str(row["measure"])), row)
-        _style_axis(axes)
-    for axes in panels[:, 0]:
-        axes.set_yticks(range(len(names)), names)
-    panels[0, 0].invert_yaxis()
+    figure = Figure(figsize=(TEXT_WIDTH, 5.0), layout="constrained")
+    factors = list(dict.fromkeys(question.factor for question in QUESTIONS))
+    panels = figure.subplots(len(factors), len(QUESTIONS) // len(factors), sharex=True, sharey="row")
+    for line, factor in zip(panels, factors, strict=True):
+        asked_here = [question for question in QUESTIONS if question.factor == factor]
+        rows = [_rows_of(table, question) for question in asked_here]
+        names = list(dict.fromkeys(pd.concat(rows)["measure"]))
+        for axes, question, answers in zip(line, asked_here, rows, strict=True):
+            axes.set_title(question.text)
+            for _, row in answers.iterrows():
+                _draw_difference(axes, names.index(str(row["measure"])), row)
+            _style_axis(axes)
+        line[0].set_yticks(range(len(names)), names)
+        line[0].invert_yaxis()
     figure.supxlabel(
         "mean difference [%]; blue: the one named last is better, orange: the one named first, grey: no clear one",
         size=8,
@@ -134,7 +139,7 @@ def _rows(table: pd.DataFrame, limits: pd.DataFrame) -> Iterator[dict[str, objec
     tracked = tracked.assign(**{COMPLETED: (tracked["status"] == "completed").astype(float)})
     good, survived = tracked[tracked[COMPLETED] > 0.0], limits.fillna({"limit": 0.0})
     for question in QUESTIONS:
-        for measure in MEASURES:
+        for measure in (measure for measure in MEASURES if measure.factor in ("", question.factor)):
             source = survived if measure.searched else tracked if measure.column == COMPLETED else good
             for name, rows in _parts(asked(source, question), measure):
                 scaled = rows.assign(**{measure.column: measure.scale * rows[measure.column]})
