@@ -21,12 +21,13 @@ RELEVANT_PERCENT = 2.0
 """Smaller differences, in per cent of the first one's mean or points of a share, matter to nobody."""
 CAPTION = (
     "Mean differences over conditions (disturbance, gait, seed, or direction and place of a search for a limit), each "
-    "the mean over planners (kinematic_sqp and vertex_zmp) or over all controllers, in per cent of the first one's "
-    "mean, of completed trials in points; estimator ekf. Axis linear within the grey band of 2 %, logarithmic beyond. "
-    "Intervals of 95 %, not corrected for their number; coloured if the mean leaves the band and a permutation test "
-    "over the pairs, corrected for all rows by Holm's method, says so at 5 %: blue where the first is better, orange "
-    "the second. Errors, cost of transport and times are those of conditions that all variants of a question "
-    "completed. Places of planks and steps, 2 cm apart, count as independent. zmp_spline plans walks alone."
+    "the mean over planners (kinematic_sqp and vertex_zmp) or over all controllers, in per cent of the mean of the one "
+    "that is subtracted, of completed trials in points; estimator ekf. Axis linear within the grey band of 2 %, "
+    "logarithmic beyond. Intervals of 95 %, not corrected for their number; coloured if the mean leaves the band and a "
+    "permutation test over the pairs, corrected for all rows by Holm's method, says so at 5 %: blue where the one "
+    "named last in the title is better, orange the one named first. Errors, cost of transport and times are those of "
+    "conditions that all variants of a question completed. Places of planks and steps, 2 cm apart, count as "
+    "independent. zmp_spline plans walks alone."
 )
 ARTEFACT = artefact("differences", "Which controller, which planner", CAPTION)
 TICKS_PERCENT = (-100, -10, -2, 0, 2, 10, 100)

@@ -4,8 +4,7 @@ from typing import Literal
 
 from quadlab.configuration import register
 from quadlab.controllers.reference import ControlReference
-from quadlab.controllers.tasks.control_frame import Frame, FramedGains, write_motion_over_ground
-from quadlab.controllers.tasks.gains import write_tracking_rows
+from quadlab.controllers.tasks.control_frame import FramedGains, write_horizontal_rows
 from quadlab.controllers.tasks.task import TaskRows, Variable, empty_equation
 from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
 
@@ -29,23 +28,11 @@ class ComPositionTask:
 
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return two rows in accelerations."""
-        if self.config.frame is Frame.CONTROL:
-            write_motion_over_ground(
-                (self.config.proportional_per_s2, self.config.derivative_per_s),
-                reference.ground_axes,
-                (reference.com_acceleration, reference.com_velocity, reference.com_position),
-                (kinematics.com_bias, kinematics.com_velocity, kinematics.com_position),
-                kinematics.com_jacobian,
-                (self._rows.matrix, self._rows.upper),
-            )
-            return self._rows
-        write_tracking_rows(
-            self.config.proportional_per_s2,
-            self.config.derivative_per_s,
-            reference.com_acceleration,
-            (reference.com_velocity, kinematics.com_velocity),
-            (reference.com_position, kinematics.com_position),
-            kinematics.com_bias,
+        write_horizontal_rows(
+            self.config,
+            reference.ground_axes,
+            (reference.com_acceleration, reference.com_velocity, reference.com_position),
+            (kinematics.com_bias, kinematics.com_velocity, kinematics.com_position),
             kinematics.com_jacobian,
             (self._rows.matrix, self._rows.upper),
         )

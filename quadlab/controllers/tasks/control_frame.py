@@ -14,7 +14,7 @@ Deviations from Bellicoso 2016:
 
 from enum import StrEnum
 
-from quadlab.controllers.tasks.gains import TrackingGains
+from quadlab.controllers.tasks.gains import TrackingGains, write_tracking_rows
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled, compiled_entry
 
@@ -35,6 +35,26 @@ class FramedGains(TrackingGains):
     """
 
     frame: Frame = Frame.WORLD
+
+
+def write_horizontal_rows(
+    gains: FramedGains,
+    ground_axes: Array,
+    planned: tuple[Array, Array, Array],
+    measured: tuple[Array, Array, Array],
+    jacobian: Array,
+    rows: tuple[Array, Array],
+) -> None:
+    """Write the two rows that follow a planned motion, along x and y or along heading and lateral of the ground.
+
+    Arguments as of ``write_motion_over_ground``.
+    """
+    proportional, derivative = gains.proportional_per_s2, gains.derivative_per_s
+    if gains.frame is Frame.CONTROL:
+        write_motion_over_ground((proportional, derivative), ground_axes, planned, measured, jacobian, rows)
+        return
+    velocities, positions = (planned[1], measured[1]), (planned[2], measured[2])
+    write_tracking_rows(proportional, derivative, planned[0], velocities, positions, measured[0], jacobian, rows)
 
 
 @compiled
