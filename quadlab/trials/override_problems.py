@@ -71,7 +71,8 @@ def _unknown_key(cause: OmegaConfBaseException) -> str | None:
     if not isinstance(cause.parent_node, Mapping) or cause.full_key is None:
         return None
     known = [str(key) for key in cause.parent_node if key != "hydra"]
-    return f"{cause.full_key}: unknown key; {suggestion(str(cause.key), known)}"
+    left_out = "; an option of a task that its file leaves out takes a + in front" if "task" in known else ""
+    return f"{cause.full_key}: unknown key; {suggestion(str(cause.key), known)}{left_out}"
 
 
 def _first_line(problem: object) -> str:

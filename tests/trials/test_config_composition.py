@@ -70,6 +70,15 @@ def test_run_options_are_no_part_of_the_trial() -> None:
         ("gait.cycles.7.stride_duration_s=1", "Error merging override gait.cycles.7.stride_duration_s=1: list index"),
         ("gait.cycles.x.stride_duration_s=1", "Index 'x' (str) is not an int"),
         ("gait.cycles.0.stride_s=1", "gait.cycles[0].stride_s: unknown key; did you mean 'stride_duration_s'?"),
+        (
+            "controller.levels.3.tasks.0.frame=control",
+            "controller.levels[3].tasks[0].frame: unknown key; known: derivative_per_s, proportional_per_s2, task; "
+            "an option of a task that its file leaves out takes a + in front",
+        ),
+        (
+            "+controller.levels.3.tasks.0.frame=x",
+            "controller.levels[3].tasks[0].frame: input should be 'world' or 'con",
+        ),
         ("+=gait", "an override has no key; expected key=value"),
         (f"~{'x' * 300}", "/"),
         ("robot.urdf=anymal_c/anymal.urdf", "robot anymal_b: no URDF 'anymal_c/anymal.urdf'; of "),
