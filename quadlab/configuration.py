@@ -17,6 +17,14 @@ class StrictModel(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
+def without_defaults(config: StrictModel) -> dict[str, Any]:
+    """Return what ``config`` says beyond its defaults.
+
+    Serialised like this, a new option leaves the identity of trials as it is that know nothing of it.
+    """
+    return config.model_dump(exclude_defaults=True)
+
+
 Positive = Annotated[float, Field(gt=0.0)]
 NonNegative = Annotated[float, Field(ge=0.0)]
 Fraction = Annotated[float, Field(ge=0.0, le=1.0)]

@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 from pydantic import PlainSerializer, PlainValidator, field_validator
 
-from quadlab.configuration import StrictModel, registered
+from quadlab.configuration import StrictModel, registered, without_defaults
 from quadlab.controllers.limits import (
     friction_cone,
     height_over_footprint,
@@ -57,16 +57,8 @@ def _validate(value: Any) -> StrictModel:
     return config
 
 
-def _dump(config: StrictModel) -> dict[str, Any]:
-    return config.model_dump(exclude_defaults=True)
-
-
-TaskConfig = Annotated[StrictModel, PlainValidator(_validate), PlainSerializer(_dump, return_type=dict)]
-"""The configuration of any registered task, chosen by its key ``task``.
-
-Options that have their default are not written: a new option of a task leaves the identity of trials as it is that know
-nothing of it.
-"""
+TaskConfig = Annotated[StrictModel, PlainValidator(_validate), PlainSerializer(without_defaults, return_type=dict)]
+"""The configuration of any registered task, chosen by its key ``task``."""
 
 
 class LevelConfig(StrictModel):

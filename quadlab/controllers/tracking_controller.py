@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from quadlab.configuration import part_of
-from quadlab.controllers.controller_config import JointPdConfig, TrackingControllerConfig
+from quadlab.controllers.controller_config import TrackingControllerConfig
 from quadlab.controllers.hierarchy import HierarchyError
-from quadlab.controllers.joint_reference import joint_drive
+from quadlab.controllers.joint_reference import driven_command
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.resolver import Resolution, Resolver, unsolved
 from quadlab.controllers.telemetry import ControlTelemetry
@@ -20,7 +20,7 @@ from quadlab.planners.plan import MotionPlan
 from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.legs import JOINT_COUNT
 from quadlab.robots.model import RobotModel
-from quadlab.robots.state import JointCommand, JointDrive, RobotState
+from quadlab.robots.state import JointCommand, RobotState
 
 
 def build_controller(config: Any, robot: RobotModel) -> "TrackingController":
@@ -87,7 +87,7 @@ class TrackingController:
             fallbacks=self.fallbacks,
             timings_us=(1e6 * (modelled - began), 1e6 * (referenced - modelled), 1e6 * (solved - referenced)),
         )
-        return JointCommand(accepted.torques, self._drive(kinematics, tracked.reference, accepted)), telemetry
+        return self._command(kinematics, tracked.reference, accepted), telemetry
 
     def _started(self) -> MotionTracker:
         if self._tracker is None:
@@ -114,6 +114,7 @@ class TrackingController:
         kept = unsolved(self.level_names, resolution.reason)
         return kept._replace(torques=np.clip(self._torques, -limits, limits), iterations=resolution.iterations)
 
-    def _drive(self, kinematics: Kinematics, reference: ControlReference, resolution: Resolution) -> JointDrive | None:
-        config: JointPdConfig | None = self.config.joint_pd
-        return joint_drive(config, kinematics, reference, resolution) if config and resolution.solved else None
+    def _command(self, kinematics: Kinematics, reference: ControlReference, resolution: Resolution) -> JointCommand:
+        if self.config.joint_pd is None or not resolution.solved:
+            return JointCommand(resolution.torques)
+        return driven_command(self.config.joint_pd, kinematics, reference, resolution)

@@ -8,7 +8,7 @@ from controller_cases import controller_config, disturbed_state, integrated, ref
 from preset_cases import near_rest, preset, resolved
 
 from quadlab.controllers.controller_config import JointPdConfig
-from quadlab.controllers.joint_reference import damped_inverse, joint_drive
+from quadlab.controllers.joint_reference import damped_inverse, driven_command, joint_drive
 from quadlab.controllers.resolver import Resolution
 from quadlab.robots.legs import joints_of
 from quadlab.robots.model import RobotModel
@@ -99,4 +99,29 @@ def test_no_drive_without_gains(robot: RobotModel) -> None:
     assert (drive.proportional, drive.derivative) == (
         config.joint_pd.proportional_nm_per_rad,
         config.joint_pd.derivative_nms_per_rad,
+    )
+
+
+def test_legs_in_the_air_that_the_drives_hold_are_not_bent_for_the_base(robot: RobotModel) -> None:
+    """On two feet the hierarchy turns the base by swinging the other legs; held, these get the torques of q_ddot = 0."""
+    config = preset("gehring2017")
+    kinematics, still_base = near_rest(robot, [0, 3])
+    reference = replace(still_base, base_angular_acceleration=np.array([5.0, 5.0, 0.0]))
+    solved = resolved(config, kinematics, reference)
+    air, standing = np.r_[joints_of(1), joints_of(2)], np.r_[joints_of(0), joints_of(3)]
+    assert np.abs(solved.accelerations[6:][air]).max() > 10.0
+    torques = driven_command(config.joint_pd, kinematics, reference, solved).torques
+    held = solved.accelerations.copy()
+    held[6 + air] = 0.0
+    motion = kinematics.mass_matrix @ held + kinematics.nonlinear_effects
+    np.testing.assert_allclose(torques[air], motion[6:][air], atol=1e-9)
+    np.testing.assert_array_equal(torques[standing], solved.torques[standing])
+
+
+def test_drives_correct_the_solved_torques_where_nothing_else_is_said(robot: RobotModel) -> None:
+    config = preset("projected_inverse_dynamics")
+    kinematics, reference = near_rest(robot, [0, 3])
+    solved = resolved(config, kinematics, reference)
+    np.testing.assert_array_equal(
+        driven_command(config.joint_pd, kinematics, reference, solved).torques, solved.torques
     )
