@@ -128,12 +128,11 @@ def _add_motors(spec: Any, robot: RobotModel) -> None:
 
 
 def _add_imu(spec: Any, robot: RobotModel) -> None:
-    """Add gyroscope, accelerometer and orientation sensors at the base's origin, in base axes."""
+    """Add gyroscope and accelerometer at the base's origin, in base axes."""
     spec.body(robot.config.base_link).add_site(name=IMU_SITE)
     for name, sensor_type in (
         (GYROSCOPE, mujoco.mjtSensor.mjSENS_GYRO),
         (ACCELEROMETER, mujoco.mjtSensor.mjSENS_ACCELEROMETER),
-        ("orientation", mujoco.mjtSensor.mjSENS_FRAMEQUAT),
     ):
         spec.add_sensor(name=name, type=sensor_type, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=IMU_SITE)
 
