@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from quadlab.configuration import NonNegative, StrictModel, register
+from quadlab.constants import GRAVITY
 from quadlab.estimation.contact_detection import ContactDetectionConfig, ContactDetector
 from quadlab.estimation.correction import (
     Correction,
@@ -36,7 +37,6 @@ from quadlab.estimation.leg_kinematics import LegKinematics, LegModel
 from quadlab.estimation.prediction import ProcessNoiseConfig, predict, propagate
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array, matrix_to_quat, skew
-from quadlab.planners.problem import GRAVITY
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.model import RobotModel
 from quadlab.robots.sensing import ContactSensing, SensorConfig, SensorReading

@@ -5,14 +5,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from quadlab.constants import GRAVITY
 from quadlab.gaits.schedule import ContactSchedule
 from quadlab.geometry.rotations import Array
 from quadlab.robots.state import RobotState
 
 if TYPE_CHECKING:  # loads pinocchio, which a problem for a pendulum needs not
     from quadlab.robots.model import RobotModel
-
-GRAVITY = 9.81  # [m/s^2]
 
 
 @dataclass(frozen=True)

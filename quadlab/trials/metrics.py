@@ -13,9 +13,9 @@ from itertools import pairwise
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from quadlab.constants import GRAVITY
 from quadlab.controllers.telemetry import ControlTelemetry, LegMode
 from quadlab.geometry.rotations import Array
-from quadlab.planners.problem import GRAVITY
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.state import JointCommand, RobotState
 

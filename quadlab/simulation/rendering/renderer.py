@@ -6,6 +6,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from quadlab.constants import GRAVITY
 from quadlab.geometry.rotations import Array, quat_to_matrix, yaw_of
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.model import RobotModel
@@ -37,8 +38,6 @@ LINE_SHARE = 0.006
 CAMERA_STEP_S = 0.02
 CELL_DIGITS = 4
 """Mesh cells are rounded to this many digits in [m], so that the cache serves variants of one robot."""
-
-GRAVITY = 9.81  # [m/s^2]
 
 
 def robot_size(robot: RobotModel) -> float:
