@@ -132,6 +132,11 @@ class MotionPlan:
         """Length of the plan in [s]."""
         return self.schedule.duration_s
 
+    def foothold_at(self, leg: int, time_s: float) -> Array:
+        """Return where ``leg`` stands at ``time_s`` in [s], or stood before the swing under way, (3,) in [m]."""
+        foothold: Array = self.footholds[leg][self.schedule.swing_at(leg, time_s)[0]]
+        return foothold
+
     def at(self, time_s: float) -> PlanSample:
         """Return the plan at ``time_s`` in [s]; after its end it stands still."""
         position, velocity, acceleration = self.com.motion(time_s)

@@ -83,7 +83,7 @@ def _draw_legs(axes: Axes3D, plan: MotionPlan) -> None:
             hub = np.array([np.interp(time, plan.base.times_s, values) for values in plan.base.positions.T])
         axes.plot(*hub[:, None], **_HUB)
         for leg in np.flatnonzero(plan.schedule.contacts_at(time)):
-            foot = plan.footholds[leg][plan.schedule.swing_at(int(leg), float(time))[0]]
+            foot = plan.foothold_at(int(leg), float(time))
             axes.plot(*np.stack([hub, foot]).T, color=LEG_COLOURS[leg], lw=0.5, alpha=0.5)
 
 

@@ -106,8 +106,7 @@ def test_motion_has_no_defect_and_the_cop_stays_in_the_hull(robot: str, gait_nam
     assert motion.verdict.values["dynamics_defect_m_s2"] < 1e-6
     for time in np.linspace(1e-4, motion.duration_s - 1e-4, 500):
         stands = np.flatnonzero(motion.schedule.contacts_at(time)).tolist()
-        stances = [motion.schedule.swing_at(leg, time)[0] for leg in stands]
-        corners = np.array([motion.footholds[leg][row][:2] for leg, row in zip(stands, stances, strict=True)])
+        corners = np.array([motion.foothold_at(leg, time)[:2] for leg in stands])
         assert distance_outside(motion.cop(time), corners) < 1e-7
 
 
