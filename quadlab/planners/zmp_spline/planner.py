@@ -67,8 +67,8 @@ class ZmpSplinePlanner:
 
     def _violated(self, program: QuadraticProgram, states: np.ndarray) -> dict[str, float]:
         """Return the sets of hard bounds that ``states`` violate by more than the tolerance, in [m]."""
-        hard = {bound.name for bound in program.bounds if bound.slack_weights is None}
         found = program.violations(states)
+        hard = [bound.name for bound in program.bounds if bound.slack_weights is None]
         return {name: found[name] for name in hard if not found[name] <= self.config.constraint_tolerance_m}
 
     def _failed(
