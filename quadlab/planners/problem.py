@@ -66,6 +66,10 @@ class Waypoints:
     poses: Array
     yaw_rate: float = 0.0
 
+    def positions_at(self, times_s: Array) -> Array:
+        """Return x and y of the straight lines between them at ``times_s`` (s,) in [s]; (s, 2) in [m]."""
+        return np.stack([np.interp(times_s, self.times_s, self.poses[:, axis]) for axis in range(2)], axis=1)
+
 
 @dataclass(frozen=True)
 class PlanningProblem:
