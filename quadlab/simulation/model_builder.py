@@ -6,8 +6,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from quadlab.robots.config import foot_links_in_urdf
 from quadlab.robots.model import RobotModel
-from quadlab.robots.pinocchio_model import foot_links_in_urdf
 from quadlab.simulation.collision import ROBOT_CONTACTS, TERRAIN_CONTACTS, add_collision_shapes
 from quadlab.simulation.conventions import ACCELEROMETER, GYROSCOPE, foot_force_sensor, foot_geom
 from quadlab.simulation.links import LinkPlacement, link_placements
