@@ -10,10 +10,8 @@ from quadlab.robots.config import foot_links_in_urdf
 from quadlab.robots.model import RobotModel
 from quadlab.simulation.collision import ROBOT_CONTACTS, TERRAIN_CONTACTS, add_collision_shapes
 from quadlab.simulation.conventions import ACCELEROMETER, GYROSCOPE, foot_force_sensor, foot_geom
-from quadlab.simulation.links import LinkPlacement, link_placements
-from quadlab.simulation.terrain import Ground
-
-__all__ = ["LinkPlacement", "build_spec", "link_placements"]
+from quadlab.simulation.ground import Ground
+from quadlab.simulation.links import link_placements
 
 CONTACT_TIME_CONSTANT = 0.005  # [s]
 CONTACT_DAMPING_RATIO = 1.0

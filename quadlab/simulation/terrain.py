@@ -13,8 +13,6 @@ from quadlab.simulation.ground import Ground, TerrainBox, ground_from, ground_un
 
 _RAMP_THICKNESS = 0.5  # [m]
 
-__all__ = ["Ground", "PlankConfig", "SlopeConfig", "StepConfig", "TerrainBox", "TerrainConfig", "build_ground"]
-
 
 def _not_level(value: float) -> float:
     if value == 0.0:

@@ -11,7 +11,8 @@ from quadlab.geometry.rotations import Array, quat_to_matrix, yaw_of
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.model import RobotModel
 from quadlab.simulation.conventions import foot_geom
-from quadlab.simulation.model_builder import build_spec, link_placements
+from quadlab.simulation.links import link_placements
+from quadlab.simulation.model_builder import build_spec
 from quadlab.simulation.push import BASE_BODY, PushConfig
 from quadlab.simulation.rendering import overlay
 from quadlab.simulation.rendering.camera import camera_at, smoothed
