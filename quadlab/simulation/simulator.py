@@ -16,7 +16,7 @@ from quadlab.simulation.conventions import MujocoMap, PhysicsArrays
 from quadlab.simulation.links import link_placements
 from quadlab.simulation.model_builder import build_spec
 from quadlab.simulation.model_error import ModelErrorConfig, apply_model_error
-from quadlab.simulation.push import BASE_BODY, PushConfig, ScheduledPush
+from quadlab.simulation.push import PushConfig, ScheduledPush
 from quadlab.simulation.scenario import ScenarioConfig, initial_state
 from quadlab.simulation.sensors import ImuIntegrator, ImuSample
 from quadlab.simulation.terrain import build_ground
@@ -65,7 +65,7 @@ class Simulator:
 
     def _schedule(self, push: PushConfig) -> ScheduledPush:
         placements = link_placements(self._robot)
-        link = self._robot.config.base_link if push.body == BASE_BODY else push.body
+        link = push.link(self._robot.config.base_link)
         if link not in placements:
             raise ConfigurationError(f"push.body: unknown link '{push.body}'; known: base, {', '.join(placements)}")
         first = math.ceil(push.start_s / self._timestep_s - 1e-6)
