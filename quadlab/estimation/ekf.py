@@ -71,8 +71,8 @@ class ExtendedKalmanFilter:
     """Predicts with the inertial unit, corrects with the feet that stand.
 
     A foot that has slipped does not fit what the others and the inertial unit say, and is refused; if none fits for a
-    while, it is the prediction that is wrong, and all are used. From the first update on a foot's
-    force is zero unless contact is detected.
+    while, it is the prediction that is wrong, and all are used. From the first update on a foot's force is
+    zero unless contact is detected.
 
     Attributes:
         sensors: errors of the sensors that it is given.
