@@ -51,6 +51,11 @@ class PlanVerdict:
         """Whether nothing is violated."""
         return not self.violated
 
+    @property
+    def complaint(self) -> str:
+        """What is violated, each with value and tolerance."""
+        return ", ".join(f"{name} {self.values[name]:.3g} > {self.tolerances[name]:.3g}" for name in self.violated)
+
 
 UNCHECKED = PlanVerdict({}, {})
 """The verdict of a plan on its way to the checker."""

@@ -60,8 +60,7 @@ class ZmpSplinePlanner:
         plan = motion_plan(transcription.model, states, self._report(transcription, program, answer))
         verdict = check_plan(plan, transcription.problem, self.config.checker)
         if not verdict.accepted:
-            found = ", ".join(f"{n} {verdict.values[n]:.3g} > {verdict.tolerances[n]:.3g}" for n in verdict.violated)
-            return PlanningOutcome(PlanningStatus.REJECTED, f"the checker found {found}", None)
+            return PlanningOutcome(PlanningStatus.REJECTED, f"the checker found {verdict.complaint}", None)
         said = f"{self.config.qp_solver}: optimality residual {answer.residual:.1e}"
         return PlanningOutcome(PlanningStatus.SOLVED, said, replace(plan, verdict=verdict))
 
