@@ -18,11 +18,10 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from quadlab.analysis.log_reader import read_log
-from quadlab.configuration import part_of
 from quadlab.robots.model import load_robot
 from quadlab.simulation.simulator import Simulator
 from quadlab.trials.compose import compose_trial
-from quadlab.trials.planning import planning_problem
+from quadlab.trials.planning import build_planner, planning_problem
 from quadlab.trials.progress import SilentProgress
 from quadlab.trials.recording.topics import LOG_FILE
 from quadlab.trials.runner import run_trial
@@ -39,7 +38,7 @@ def bench_planner(robot_name: str, gait: str, repeats: int) -> str:
     robot = load_robot(config.robot)
     state = Simulator(robot, config.scenario, config.simulation, config.seed).read()
     problem = planning_problem(config, robot, state)
-    planner: Any = part_of("planner", config.planner)(config.planner)
+    planner: Any = build_planner(config)
     planner.prepare()
     builds, solves = [], []
     for _ in range(repeats):

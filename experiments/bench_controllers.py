@@ -1,6 +1,6 @@
 """Time of a control tick by controller and number of standing feet: model, reference, assembly, solve.
 
-    python experiments/bench_controllers.py [--robot anymal_b] [--repeats 5] [--closed-loop]
+    python experiments/bench_controllers.py [--robot anymal_b] [--repeats 3] [--closed-loop] [--controllers NAME ...]
 
 A trial is simulated once; its measured states are then given to a fresh controller again and again, which must return
 the same torques bit by bit. The time of a tick is the smallest over the repetitions, so that a busy machine does not

@@ -13,7 +13,7 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-from quadlab.errors import QuadlabError
+from quadlab.command_line import EXIT_FAILED, complain, exit_code
 from quadlab.plotting.trial_figures import plot_trial
 from quadlab.plotting.trial_video import render_trial_log
 from quadlab.trials.compose import compose_document, split_document
@@ -38,19 +38,15 @@ def main() -> int:
     parser.add_argument("--tag", default="demo", help="folder below results/")
     parser.add_argument("--picture", action="store_true", help="replace the picture in README.md by the new strip")
     arguments = parser.parse_args()
-    try:
-        return run_demo(arguments.tag, arguments.picture)
-    except QuadlabError as error:
-        sys.stderr.write(f"quadlab: {error}\n")
-        return 2
+    return exit_code(lambda: run_demo(arguments.tag, arguments.picture))
 
 
 def run_demo(tag: str, replace_picture: bool) -> int:
     """Run the demonstration into ``results/<tag>`` and print status, key numbers and paths."""
     outcome = run_job(*split_document(compose_document([*OVERRIDES, f"tag={tag}"])), terminal_progress())
     if outcome.failure:
-        sys.stderr.write(f"quadlab: {outcome.failure}\n")
-        return 1
+        complain(outcome.failure)
+        return EXIT_FAILED
     sys.stdout.write(job_report(outcome))
     show(plot_trial(outcome.directory))
     rendered = render_trial_log(outcome.directory)

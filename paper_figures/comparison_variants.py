@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from quadlab.analysis.artefact import Artefact
+from quadlab.plotting.style import SERIES
 
 STUDY = "comparison"
 PLANNERS = ("kinematic_sqp", "vertex_zmp", "zmp_spline")
@@ -10,7 +11,7 @@ PLANNERS = ("kinematic_sqp", "vertex_zmp", "zmp_spline")
 CONTROLLERS = ("weighted", "hierarchical", "projected_inverse_dynamics")
 SHORT = {"projected_inverse_dynamics": "projected"}
 """Names where there is little room."""
-COLOURS = {"kinematic_sqp": "#0072b2", "vertex_zmp": "#d55e00", "zmp_spline": "#009e73"}
+COLOURS = dict(zip(PLANNERS, SERIES[1:], strict=True))
 
 
 @dataclass(frozen=True)

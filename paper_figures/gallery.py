@@ -44,7 +44,7 @@ class ArtefactScript:
 
     Attributes:
         paper: folder, e.g. "gehring2017".
-        name: module, e.g. "figure6_plank".
+        name: module, e.g. "figure6_trot_plank".
         artefact: what it is.
         draw, numbers, claims: its functions of the results.
     """

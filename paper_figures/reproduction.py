@@ -1,6 +1,5 @@
 """From nothing to every table and figure: runs the studies that are missing, draws, and says what became of it."""
 
-import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -19,6 +18,7 @@ from quadlab.errors import ConfigurationError, QuadlabError
 from quadlab.studies.main import INTERRUPTED
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.runner import run_studies
+from quadlab.sweeps.limits import usable_cores
 from quadlab.trials.problems import suggestion, validation_problems
 
 PAPERS = ("gehring2017", "winkler2017", "bellicoso2016")
@@ -42,7 +42,7 @@ class ReproduceOptions(StrictModel):
 
     paper: Literal["all", "gehring2017", "winkler2017", "bellicoso2016", "comparison"] = "all"
     artefact: str = ""
-    jobs: int = Field(default_factory=lambda: len(os.sched_getaffinity(0)), ge=1)
+    jobs: int = Field(default_factory=usable_cores, ge=1)
 
 
 def main(arguments: Sequence[str]) -> int:

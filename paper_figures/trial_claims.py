@@ -6,6 +6,8 @@ from quadlab.analysis.artefact import Claim, Verdict, verdict
 from quadlab.studies.report import success_share
 
 COMPLETED = "completed"
+LEG_LENGTH_M = 0.564
+"""Thigh and shank of ANYmal B."""
 STACKS = {"hierarchical": "our priorities", "gehring2017": "the priorities of the paper"}
 """The controllers that the trials of Gehring 2017 are run with."""
 PAPER_STACK = "stack of the paper"

@@ -28,7 +28,7 @@ def compiled_entry(function: _Function) -> _Function:
     """Decorator: compile a function that Python calls, and keep the machine code on disk.
 
     numba notices a change of the file that holds ``function`` and of its closure variables, but not of the other files
-    whose functions it calls. An entry point therefore has to close over :func:`source_fingerprint`.
+    whose functions it calls. An entry point that calls any therefore has to close over :func:`source_fingerprint`.
     """
     return cast(_Function, numba.njit(cache=True, error_model="numpy")(function))
 

@@ -108,8 +108,7 @@ def moment(results: StudyResults) -> Moment:
 
 def planned_feet(plan: MotionPlan, time_s: float) -> Array:
     """Return where each foot stands by plan, or lifted off if it swings, (4, 2) in the plan frame in [m]."""
-    landed = [sum(swing.end_s <= time_s for swing in plan.schedule.swings[leg]) for leg in range(len(LEGS))]
-    return np.array([plan.footholds[leg][count][:2] for leg, count in enumerate(landed)])
+    return np.array([plan.foothold_at(leg, time_s)[:2] for leg in range(len(LEGS))])
 
 
 def numbers(results: StudyResults) -> pd.DataFrame:

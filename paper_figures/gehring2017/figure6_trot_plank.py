@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from paper_figures.known_limits import known_limits
-from paper_figures.trial_claims import paper_stack, survival, variant_claims
+from paper_figures.trial_claims import LEG_LENGTH_M, paper_stack, survival, variant_claims
 from quadlab.analysis.artefact import Artefact, Claim, Verdict, verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.controllers.telemetry import LegMode
@@ -27,8 +27,6 @@ CAPTION = (
 )
 ARTEFACT = Artefact("G-F6", "Gehring 2017, Fig. 6", "Trot over an unperceived plank", (STUDY,), CAPTION)
 HEIGHT, PLACE = "scenario.terrain.0.height_m", "scenario.terrain.0.center_x_m"
-LEG_LENGTH_M = 0.564
-"""Thigh and shank of ANYmal B."""
 PLANK = SERIES[2]
 TILTS_DEG = 1.0
 """By so much the desired pitch has to turn to either side."""

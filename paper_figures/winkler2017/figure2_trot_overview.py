@@ -63,7 +63,7 @@ def _draw_areas(axes: Axes, plan: MotionPlan, times: Array) -> None:
     switches = plan.schedule.switch_times_s
     for phase, contacts in enumerate(plan.schedule.contacts):
         middle = 0.5 * float(switches[phase] + switches[phase + 1])
-        feet = [plan.footholds[leg][plan.schedule.swing_at(int(leg), middle)[0], 0] for leg in np.flatnonzero(contacts)]
+        feet = [plan.foothold_at(int(leg), middle)[0] for leg in np.flatnonzero(contacts)]
         label = "support" if phase == 0 else ""
         axes.fill_between(
             switches[phase : phase + 2], min(feet), max(feet), color=SERIES[3], alpha=0.15, lw=0, label=label

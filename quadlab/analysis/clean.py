@@ -64,7 +64,7 @@ class Litter:
 
 
 def find_litter(folder: Path) -> list[Litter]:
-    """Return what trials below ``folder`` left that never finished and does not run now, oldest id first.
+    """Return what trials below ``folder`` left that never finished and does not run now, in the order of their ids.
 
     Raises:
         LogError: if there is no such folder.

@@ -5,7 +5,6 @@ from scipy.spatial import ConvexHull
 
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan
-from quadlab.robots.legs import LEG_COUNT
 
 POLYGON_FEET = 3
 
@@ -31,12 +30,8 @@ def support_margins(plan: MotionPlan, period_s: float) -> tuple[Array, Array]:
 
 def standing_feet(plan: MotionPlan, time_s: float) -> Array:
     """Return where feet stand at ``time_s`` in [s], (k, 2) in the plan frame in [m]."""
-    contacts = plan.schedule.contacts_at(time_s)
-    feet = [
-        plan.footholds[leg][sum(swing.end_s <= time_s for swing in plan.schedule.swings[leg])][:2]
-        for leg in range(LEG_COUNT)
-        if contacts[leg]
-    ]
+    standing = np.flatnonzero(plan.schedule.contacts_at(time_s)).tolist()
+    feet = [plan.foothold_at(leg, time_s)[:2] for leg in standing]
     return np.array(feet).reshape(-1, 2)
 
 

@@ -15,10 +15,8 @@ def logged_config(log: TrialLog) -> TrialConfig:
     Raises:
         LogError: if the log has none, or one that this version does not understand.
     """
-    if CONFIG_ATTACHMENT not in log.attachments:
-        raise LogError(f"no attachment '{CONFIG_ATTACHMENT}'; attached are: {', '.join(sorted(log.attachments))}")
     try:
-        return TrialConfig.model_validate(load_yaml(log.attachments[CONFIG_ATTACHMENT]))
+        return TrialConfig.model_validate(load_yaml(log.attachment(CONFIG_ATTACHMENT)))
     except ValidationError as error:
         first = error.errors()[0]
         key = ".".join(map(str, first["loc"]))

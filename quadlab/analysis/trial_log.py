@@ -46,9 +46,17 @@ class TrialLog:
         Raises:
             LogError: if the log has none.
         """
-        if PLAN_ATTACHMENT not in self.attachments:
-            raise LogError(f"no attachment '{PLAN_ATTACHMENT}'; attached are: {', '.join(sorted(self.attachments))}")
-        return bytes_to_plan(self.attachments[PLAN_ATTACHMENT], PLAN_ATTACHMENT)
+        return bytes_to_plan(self.attachment(PLAN_ATTACHMENT), PLAN_ATTACHMENT)
+
+    def attachment(self, name: str) -> bytes:
+        """Return the content of an attached file.
+
+        Raises:
+            LogError: if the log has none of that name.
+        """
+        if name not in self.attachments:
+            raise LogError(f"no attachment '{name}'; attached are: {', '.join(sorted(self.attachments))}")
+        return self.attachments[name]
 
 
 def vectors(table: pd.DataFrame, name: str) -> Array:

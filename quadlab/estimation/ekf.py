@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from quadlab.configuration import NonNegative, StrictModel, register
+from quadlab.constants import GRAVITY
 from quadlab.estimation.contact_detection import ContactDetectionConfig, ContactDetector
 from quadlab.estimation.correction import (
     Correction,
@@ -36,7 +37,6 @@ from quadlab.estimation.leg_kinematics import LegKinematics, LegModel
 from quadlab.estimation.prediction import ProcessNoiseConfig, predict, propagate
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array, matrix_to_quat, skew
-from quadlab.planners.problem import GRAVITY
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.model import RobotModel
 from quadlab.robots.sensing import ContactSensing, SensorConfig, SensorReading
@@ -71,8 +71,8 @@ class ExtendedKalmanFilter:
     """Predicts with the inertial unit, corrects with the feet that stand.
 
     A foot that has slipped does not fit what the others and the inertial unit say, and is refused; if none fits for a
-    while, it is the prediction that is wrong, and all are used. From the first update on a
-    foot's force is zero unless contact is detected.
+    while, it is the prediction that is wrong, and all are used. From the first update on a foot's force is
+    zero unless contact is detected.
 
     Attributes:
         sensors: errors of the sensors that it is given.

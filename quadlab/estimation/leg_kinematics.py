@@ -8,9 +8,10 @@ import pinocchio as pin
 
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry
+from quadlab.robots.config import foot_links_in_urdf
 from quadlab.robots.legs import JOINT_COUNT, JOINTS_PER_LEG, LEG_COUNT
 from quadlab.robots.model import RobotModel
-from quadlab.robots.pinocchio_model import IndexArray, foot_links_in_urdf
+from quadlab.robots.pinocchio_model import IndexArray
 from quadlab.robots.sensing import SensorReading
 
 

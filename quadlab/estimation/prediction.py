@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from quadlab.configuration import Positive, StrictModel
+from quadlab.constants import GRAVITY
 from quadlab.estimation.error_state import (
     ACCELEROMETER_BIAS,
     ERROR_SIZE,
@@ -22,7 +23,6 @@ from quadlab.estimation.error_state import (
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled, compiled_entry, inlined, source_fingerprint
-from quadlab.planners.problem import GRAVITY
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.sensing import SensorReading
 

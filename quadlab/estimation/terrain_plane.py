@@ -8,6 +8,9 @@ import numpy as np
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled_entry
 
+_LEAST_SPREAD = 1e-12
+"""Of points across the line through them: the square of their width over their length; less is rounding."""
+
 
 class TerrainPlane(NamedTuple):
     """The plane z = height + slope . (xy - origin), in world components and numbers of Python.
@@ -46,7 +49,7 @@ class TerrainPlane(NamedTuple):
 def fit_plane(points: Array, origin: Array) -> TerrainPlane:
     """Return the least-squares plane through ``points``, (n, 3) in [m], written about ``origin``, (2,).
 
-    Points on one vertical plane, as under a robot that has fallen over, give infinities or NaN.
+    Points on one vertical plane, as under a robot that has fallen over, give NaN.
     """
     x, y = origin.tolist()
     height, slope_x, slope_y = _least_squares_plane(points, x, y)
@@ -64,6 +67,8 @@ def _least_squares_plane(points: Array, origin_x: float, origin_y: float) -> tup
         xx, xy, yy = xx + dx * dx, xy + dx * dy, yy + dy * dy
         xz, yz = xz + dx * dz, yz + dy * dz
     determinant = xx * yy - xy * xy
+    if not determinant > _LEAST_SPREAD * (xx + yy) ** 2:
+        return math.nan, math.nan, math.nan
     slope_x, slope_y = (yy * xz - xy * yz) / determinant, (xx * yz - xy * xz) / determinant
     return z + slope_x * (origin_x - x) + slope_y * (origin_y - y), slope_x, slope_y
 

@@ -1,6 +1,8 @@
 """What every curve over time can do, whatever its pieces are made of."""
 
 from bisect import bisect_right
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -38,6 +40,36 @@ class Curve(Protocol):
     def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
         """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""
         ...
+
+
+@dataclass(frozen=True)
+class CurvePieces:
+    """What the curves made of n pieces have in common.
+
+    Attributes:
+        knots: (n + 1,) increasing times in [s].
+        coefficients: of each piece, (n, k, d).
+    """
+
+    knots: Array
+    coefficients: Array
+
+    @cached_property
+    def _knot_list(self) -> list[float]:
+        return [float(knot) for knot in self.knots]
+
+    @property
+    def dimension(self) -> int:
+        """Number of components d of the curve."""
+        return int(self.coefficients.shape[2])
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last knot in [s]."""
+        return self._knot_list[0], self._knot_list[-1]
+
+    def _spans(self, time_s: float) -> bool:
+        return self._knot_list[0] <= time_s <= self._knot_list[-1]
 
 
 def piece_at(knots: list[float], time_s: float) -> tuple[int, float]:

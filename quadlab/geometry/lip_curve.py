@@ -8,12 +8,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from quadlab.geometry.curve import piece_at
+from quadlab.geometry.curve import CurvePieces, piece_at
 from quadlab.geometry.rotations import Array
 
 
 @dataclass(frozen=True)
-class LipCurve:
+class LipCurve(CurvePieces):
     """n pieces c(s) = a + b s + p cosh(w s) + q sinh(w s), each in its local time s.
 
     It solves c_ddot = w^2 (c - u) for u(s) = a + b s. Outside its span it continues at rest: the end value, with zero
@@ -25,13 +25,7 @@ class LipCurve:
         rate: w in [1/s].
     """
 
-    knots: Array
-    coefficients: Array
     rate: float
-
-    @cached_property
-    def _knot_list(self) -> list[float]:
-        return [float(knot) for knot in self.knots]
 
     @cached_property
     def _coefficient_list(self) -> list[list[list[float]]]:
@@ -43,16 +37,6 @@ class LipCurve:
         from quadlab.geometry.curve_motion import lip_motion  # noqa: PLC0415
 
         return lip_motion
-
-    @property
-    def dimension(self) -> int:
-        """Number of components d of the curve."""
-        return int(self.coefficients.shape[2])
-
-    @property
-    def span(self) -> tuple[float, float]:
-        """First and last knot in [s]."""
-        return self._knot_list[0], self._knot_list[-1]
 
     def __call__(self, time_s: float, derivative: int = 0) -> Array:
         """Return the value (or the 1st to 3rd time derivative) at ``time_s``, (d,)."""
@@ -74,9 +58,6 @@ class LipCurve:
     def motion(self, time_s: float) -> Array:
         """Return value, first and second time derivative at ``time_s``, (3, d)."""
         return self._compiled_motion(self.knots, self.coefficients, self.rate, time_s)
-
-    def _spans(self, time_s: float) -> bool:
-        return self._knot_list[0] <= time_s <= self._knot_list[-1]
 
     def on_pieces(self, pieces: NDArray[np.intp], local_s: Array, derivative: int = 0) -> Array:
         """Return the value (or a derivative) of given pieces at given local times in [s], both (s,); (s, d)."""

@@ -22,17 +22,20 @@ def convex_hull(points: Array) -> Array:
     return np.array(half(unique) + half(unique[::-1]))
 
 
-def distance_outside(point: Array, corners: Array) -> float:
-    """Return how far ``point`` (2,) lies outside the hull of ``corners`` (n, 2) in [m]; 0 inside.
+def distances_outside(points: Array, corners: Array) -> Array:
+    """Return how far each of ``points`` (s, 2) lies outside the hull of ``corners`` (n, 2), (s,) in [m]; 0 inside.
 
     A hull of one or two points is a point or a segment; nothing lies inside it but itself.
     """
     hull = convex_hull(corners)
-    if len(hull) >= 3 and _is_inside(point, hull):
-        return 0.0
-    if len(hull) == 1:
-        return float(np.hypot(*(point - hull[0])))
-    return min(_distance_to_segment(point, hull[i - 1], hull[i]) for i in range(len(hull)))
+    edges = np.roll(hull, -1, axis=0) - hull
+    relative = points[:, None, :] - hull[None]
+    length_squared = np.maximum((edges**2).sum(axis=1), 1e-300)
+    share = np.clip((relative * edges).sum(axis=2) / length_squared, 0.0, 1.0)
+    distance: Array = np.linalg.norm(relative - share[:, :, None] * edges, axis=2).min(axis=1)
+    turn = edges[:, 0] * relative[:, :, 1] - edges[:, 1] * relative[:, :, 0]
+    inside = (turn >= 0.0).all(axis=1) & (len(hull) >= 3)
+    return np.where(inside, 0.0, distance)
 
 
 def distance_inside(point: Array, corners: Array) -> float:

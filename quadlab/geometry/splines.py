@@ -7,12 +7,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from quadlab.geometry.curve import piece_at
+from quadlab.geometry.curve import CurvePieces, piece_at
 from quadlab.geometry.rotations import Array
 
 
 @dataclass(frozen=True)
-class PiecewisePolynomial:
+class PiecewisePolynomial(CurvePieces):
     """A curve of n polynomials, each in its local time.
 
     Outside its span it continues at rest: the end value, with zero derivatives.
@@ -21,13 +21,6 @@ class PiecewisePolynomial:
         knots: (n + 1,) increasing times in [s].
         coefficients: (n, degree + 1, d); entry [k, i] multiplies (t - knots[k])**i.
     """
-
-    knots: Array
-    coefficients: Array
-
-    @cached_property
-    def _knot_list(self) -> list[float]:
-        return [float(knot) for knot in self.knots]
 
     @cached_property
     def _derivatives(self) -> list[Array]:
@@ -49,16 +42,6 @@ class PiecewisePolynomial:
 
         return spline_motion
 
-    @property
-    def dimension(self) -> int:
-        """Number of components d of the curve."""
-        return int(self.coefficients.shape[2])
-
-    @property
-    def span(self) -> tuple[float, float]:
-        """First and last knot in [s]."""
-        return self._knot_list[0], self._knot_list[-1]
-
     def __call__(self, time_s: float, derivative: int = 0) -> Array:
         """Return the value (or the 1st to 3rd time derivative) at ``time_s``, (d,)."""
         if derivative and not self._spans(time_s):
@@ -69,9 +52,6 @@ class PiecewisePolynomial:
         """Return value, first and second time derivative at ``time_s``, (3, d)."""
         values, rates, accelerations = self._derivatives[:3]
         return self._compiled_motion(self.knots, values, rates, accelerations, time_s)
-
-    def _spans(self, time_s: float) -> bool:
-        return self._knot_list[0] <= time_s <= self._knot_list[-1]
 
     def _evaluate(self, piece: int, local_s: float, derivative: int) -> list[float]:
         """Return a derivative of one polynomial by Horner's scheme."""

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from quadlab.constants import GRAVITY
 from quadlab.geometry.rotations import Array
-from quadlab.planners.problem import GRAVITY
 
 
 def capture_point(com_position: Array, com_velocity: Array, com_height: float, gravity: float = GRAVITY) -> Array:

@@ -5,13 +5,13 @@ import numpy as np
 from quadlab.configuration import NonNegative, Positive, StrictModel
 from quadlab.errors import PlanningProblemError
 from quadlab.gaits.schedule import ContactSchedule
+from quadlab.geometry.polygons import distances_outside
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan, PlanVerdict
 from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.sampling import (
     Samples,
     dense_samples,
-    distances_outside,
     evaluate,
     foot_positions,
     largest_jump,

@@ -51,6 +51,11 @@ class PlanVerdict:
         """Whether nothing is violated."""
         return not self.violated
 
+    @property
+    def complaint(self) -> str:
+        """What is violated, each with value and tolerance."""
+        return ", ".join(f"{name} {self.values[name]:.3g} > {self.tolerances[name]:.3g}" for name in self.violated)
+
 
 UNCHECKED = PlanVerdict({}, {})
 """The verdict of a plan on its way to the checker."""
@@ -131,6 +136,11 @@ class MotionPlan:
     def duration_s(self) -> float:
         """Length of the plan in [s]."""
         return self.schedule.duration_s
+
+    def foothold_at(self, leg: int, time_s: float) -> Array:
+        """Return where ``leg`` stands at ``time_s`` in [s], or stood before the swing under way, (3,) in [m]."""
+        foothold: Array = self.footholds[leg][self.schedule.swing_at(leg, time_s)[0]]
+        return foothold
 
     def at(self, time_s: float) -> PlanSample:
         """Return the plan at ``time_s`` in [s]; after its end it stands still."""

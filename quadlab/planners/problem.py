@@ -5,14 +5,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from quadlab.constants import GRAVITY
 from quadlab.gaits.schedule import ContactSchedule
 from quadlab.geometry.rotations import Array
 from quadlab.robots.state import RobotState
 
 if TYPE_CHECKING:  # loads pinocchio, which a problem for a pendulum needs not
     from quadlab.robots.model import RobotModel
-
-GRAVITY = 9.81  # [m/s^2]
 
 
 @dataclass(frozen=True)
@@ -66,6 +65,10 @@ class Waypoints:
     times_s: Array
     poses: Array
     yaw_rate: float = 0.0
+
+    def positions_at(self, times_s: Array) -> Array:
+        """Return x and y of the straight lines between them at ``times_s`` (s,) in [s]; (s, 2) in [m]."""
+        return np.stack([np.interp(times_s, self.times_s, self.poses[:, axis]) for axis in range(2)], axis=1)
 
 
 @dataclass(frozen=True)

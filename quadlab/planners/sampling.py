@@ -7,7 +7,6 @@ import numpy as np
 
 from quadlab.gaits.schedule import Swing
 from quadlab.geometry.curve import Curve
-from quadlab.geometry.polygons import convex_hull
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan
 from quadlab.planners.swing import swing_blend
@@ -85,16 +84,3 @@ def turned_vertices(vertices: Array, yaws: Array) -> Array:
     cosine, sine = np.cos(yaws)[..., None], np.sin(yaws)[..., None]
     forward, left = vertices[:, 0], vertices[:, 1]
     return np.stack([cosine * forward - sine * left, sine * forward + cosine * left], axis=-1)
-
-
-def distances_outside(points: Array, corners: Array) -> Array:
-    """Return how far each of ``points`` (s, 2) lies outside the hull of ``corners`` (n, 2), (s,) in [m]; 0 inside."""
-    hull = convex_hull(corners)
-    edges = np.roll(hull, -1, axis=0) - hull
-    relative = points[:, None, :] - hull[None]
-    length_squared = np.maximum((edges**2).sum(axis=1), 1e-300)
-    share = np.clip((relative * edges).sum(axis=2) / length_squared, 0.0, 1.0)
-    distance: Array = np.linalg.norm(relative - share[:, :, None] * edges, axis=2).min(axis=1)
-    turn = edges[:, 0] * relative[:, :, 1] - edges[:, 1] * relative[:, :, 0]
-    inside = (turn >= 0.0).all(axis=1) & (len(hull) >= 3)
-    return np.where(inside, 0.0, distance)

@@ -97,7 +97,7 @@ def _supports(plan: MotionPlan, pose_at: PoseAt, until_s: float) -> list[Support
         if begin >= until_s or not contacts.any():
             continue
         standing = np.flatnonzero(contacts).tolist()
-        feet = [plan.footholds[leg][plan.schedule.swing_at(leg, middle)[0], :2] for leg in standing]
+        feet = [plan.foothold_at(leg, middle)[:2] for leg in standing]
         found.append(SupportArea(convex_hull(np.array([_placed(foot, pose_at(middle)) for foot in feet])), contacts))
     return found
 

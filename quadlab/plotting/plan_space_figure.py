@@ -1,6 +1,5 @@
 """A motion plan in space (the look of Gehring 2017, Fig. 1): feet, CoM, base and support over the ground."""
 
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -8,11 +7,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 
-from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan
 from quadlab.planners.sampling import Samples, foot_path
-from quadlab.plotting.axes.plan_view import COP_DOT, phase_colour, plan_view_legend
+from quadlab.plotting.axes.plan_view import COP_DOT, phase_colour, phase_spans, plan_view_legend
 from quadlab.plotting.placed_plan import in_plan_frame
 from quadlab.plotting.style import LEG_COLOURS, MEASURED, TEXT_WIDTH, paper_style
 from quadlab.robots.legs import LEG_COUNT
@@ -44,7 +42,7 @@ def plan_space_figure(plan: MotionPlan, apex_m: float = _APEX) -> Figure:
         for marker, points in (("s", plan.footholds[leg][:1]), ("o", plan.footholds[leg][1:])):
             axes.plot(*points.T, ls="", marker=marker, mfc="w", ms=3.5, mew=0.8, color=colour)
     com = np.array([plan.com(time) for time in placed.times_s])
-    for begin, end in _phases(placed.contacts):
+    for begin, end in phase_spans(placed.contacts):
         axes.plot(*com[begin : end + 1].T, color=phase_colour(placed.contacts[begin]), lw=1.8)
     axes.plot(*placed.cop.T, 0.0, **COP_DOT)
     _draw_legs(axes, plan)
@@ -69,12 +67,6 @@ def swing_arcs(plan: MotionPlan, leg: int, apex_m: float = _APEX) -> list[Array]
     return arcs
 
 
-def _phases(contacts: BoolArray) -> list[tuple[int, int]]:
-    """Return first sample of each phase and of the one after it, given the flags of all samples, (n, 4)."""
-    switches = np.flatnonzero(np.any(contacts[1:] != contacts[:-1], axis=1)) + 1
-    return list(pairwise([0, *switches.tolist(), len(contacts) - 1]))
-
-
 def _draw_legs(axes: Axes3D, plan: MotionPlan) -> None:
     """Draw at a few times the lines from the CoM, or the planned base, to the standing feet."""
     for time in np.linspace(0.0, plan.duration_s, _STATIONS):
@@ -83,7 +75,7 @@ def _draw_legs(axes: Axes3D, plan: MotionPlan) -> None:
             hub = np.array([np.interp(time, plan.base.times_s, values) for values in plan.base.positions.T])
         axes.plot(*hub[:, None], **_HUB)
         for leg in np.flatnonzero(plan.schedule.contacts_at(time)):
-            foot = plan.footholds[leg][plan.schedule.swing_at(int(leg), float(time))[0]]
+            foot = plan.foothold_at(int(leg), float(time))
             axes.plot(*np.stack([hub, foot]).T, color=LEG_COLOURS[leg], lw=0.5, alpha=0.5)
 
 

@@ -1,6 +1,5 @@
 """Video and snapshot strip of a trial, from its log alone."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 from quadlab.analysis.log_reader import read_log
@@ -13,15 +12,12 @@ from quadlab.simulation.rendering.motion import Motion
 from quadlab.simulation.rendering.trial_render import RenderedTrial, render_trial
 
 
-def render_trial_log(
-    directory: Path, options: RenderConfig | None = None, on_frame: Callable[[int, int], None] | None = None
-) -> RenderedTrial:
+def render_trial_log(directory: Path, options: RenderConfig | None = None) -> RenderedTrial:
     """Write ``video.mp4`` and ``strip.png`` into ``directory``.
 
     Args:
         directory: of the trial; holds its log.
         options: how to draw.
-        on_frame: called after each frame with the number of frames drawn and to draw.
 
     Raises:
         LogError: if there is no log, or not a whole one.
@@ -30,7 +26,7 @@ def render_trial_log(
     log = read_log(find_log(directory))
     config = logged_config(log)
     robot = load_robot(config.robot)
-    return render_trial(robot, config.scenario, recorded_motion(log), directory, options or RenderConfig(), on_frame)
+    return render_trial(robot, config.scenario, recorded_motion(log), directory, options or RenderConfig())
 
 
 def recorded_motion(log: TrialLog) -> Motion:

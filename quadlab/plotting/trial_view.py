@@ -7,19 +7,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import yaml
 from pydantic import TypeAdapter, ValidationError
 
 from quadlab.analysis.log_reader import read_log
 from quadlab.analysis.trial_directory import find_log
 from quadlab.analysis.trial_log import TrialLog
+from quadlab.analysis.yaml_text import load_yaml
 from quadlab.errors import LogError
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan
 from quadlab.plotting.axes.contact_bands import ContactBands, recorded_bands
 from quadlab.plotting.axes.pushes import RecordedPush, recorded_pushes
-from quadlab.robots.config import RobotConfig
-from quadlab.robots.legs import LEGS
+from quadlab.robots.config import RobotConfig, joint_names_in_urdf
 from quadlab.simulation.ground import Ground
 from quadlab.simulation.terrain import TerrainConfig, build_ground
 from quadlab.trials.recording.topics import CONFIG_ATTACHMENT, LOG_FILE, URDF_ATTACHMENT
@@ -80,7 +79,7 @@ def load_trial_view(directory: Path) -> TrialView:
     log = read_log(find_log(directory))
     if log.control.empty:
         raise LogError(f"{directory / LOG_FILE}: no tick was recorded, there is nothing to draw")
-    config = yaml.safe_load(_attachment(log, CONFIG_ATTACHMENT))
+    config = load_yaml(log.attachment(CONFIG_ATTACHMENT))
     try:
         robot = RobotConfig.model_validate(config["robot"])
         terrain = TypeAdapter(tuple[TerrainConfig, ...]).validate_python(config["scenario"]["terrain"])
@@ -95,24 +94,18 @@ def load_trial_view(directory: Path) -> TrialView:
         plan=log.plan,
         config=config,
         ground=build_ground(terrain),
-        torque_limits=_torque_limits(_attachment(log, URDF_ATTACHMENT), robot),
+        torque_limits=_torque_limits(log.attachment(URDF_ATTACHMENT), robot),
         foot_radius=robot.foot_radius_m,
         period_s=period_s,
         result=read_result(directory) if (directory / RESULT_FILE).is_file() else None,
     )
 
 
-def _attachment(log: TrialLog, name: str) -> bytes:
-    if name not in log.attachments:
-        raise LogError(f"no attachment '{name}'; attached are: {', '.join(sorted(log.attachments))}")
-    return log.attachments[name]
-
-
 def _torque_limits(urdf: bytes, robot: RobotConfig) -> Array:
     """Return the limits in the order of ``JOINT_NAMES``, (12,) in [N m]."""
     limits = {joint.get("name"): joint.find("limit") for joint in ET.fromstring(urdf).findall("joint")}
     efforts = {name: limit.get("effort") for name, limit in limits.items() if limit is not None}
-    names = [template.format(leg=robot.legs[leg]) for leg in LEGS for template in robot.joints]
+    names = joint_names_in_urdf(robot)
     missing = [name for name in names if efforts.get(name) is None]
     if missing:
         raise LogError(f"{URDF_ATTACHMENT}: joints without a torque limit: {', '.join(missing)}")

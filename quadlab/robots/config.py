@@ -73,3 +73,13 @@ class RobotConfig(StrictModel):
         if set(by_leg) != set(LEGS):
             raise ValueError(f"expected the legs {', '.join(LEGS)}; got {', '.join(by_leg)}")
         return by_leg
+
+
+def joint_names_in_urdf(config: RobotConfig) -> tuple[str, ...]:
+    """Return what the URDF calls the joints, in the order ``JOINT_NAMES``, (12,)."""
+    return tuple(template.replace("{leg}", config.legs[leg]) for leg in LEGS for template in config.joints)
+
+
+def foot_links_in_urdf(config: RobotConfig) -> tuple[str, ...]:
+    """Return what the URDF calls the foot links, in the order ``LEGS``, (4,)."""
+    return tuple(config.foot_link.replace("{leg}", config.legs[leg]) for leg in LEGS)

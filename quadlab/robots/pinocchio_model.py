@@ -8,8 +8,8 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from quadlab.errors import RobotDescriptionError
-from quadlab.robots.config import RobotConfig
-from quadlab.robots.legs import JOINT_COUNT, JOINTS_PER_LEG, LEG_COUNT, LEGS
+from quadlab.robots.config import RobotConfig, foot_links_in_urdf, joint_names_in_urdf
+from quadlab.robots.legs import JOINT_COUNT, JOINTS_PER_LEG, LEG_COUNT
 
 IndexArray = NDArray[np.intp]
 
@@ -59,19 +59,18 @@ def build_pinocchio_model(config: RobotConfig, urdf_text: str) -> PinocchioModel
         position_indices=np.array([model.joints[joint].idx_q for joint in joints], dtype=np.intp),
         velocity_indices=velocity_indices,
         order=np.concatenate([np.arange(6, dtype=np.intp), velocity_indices]),
-        foot_frames=tuple(_add_foot_frame(config, model, name) for name in foot_links_in_urdf(config)),
+        foot_frames=add_foot_frames(config, model),
         hip_joints=tuple(joints[::JOINTS_PER_LEG]),
     )
 
 
-def joint_names_in_urdf(config: RobotConfig) -> tuple[str, ...]:
-    """Return what the URDF calls the joints, in the order ``JOINT_NAMES``, (12,)."""
-    return tuple(template.replace("{leg}", config.legs[leg]) for leg in LEGS for template in config.joints)
+def add_foot_frames(config: RobotConfig, model: Any) -> tuple[int, ...]:
+    """Add a frame at the centre of each foot sphere to a ``pinocchio.Model`` and return their ids, (4,).
 
-
-def foot_links_in_urdf(config: RobotConfig) -> tuple[str, ...]:
-    """Return what the URDF calls the foot links, in the order ``LEGS``, (4,)."""
-    return tuple(config.foot_link.replace("{leg}", config.legs[leg]) for leg in LEGS)
+    Raises:
+        RobotDescriptionError: if the model does not have the named links.
+    """
+    return tuple(_add_foot_frame(config, model, link) for link in foot_links_in_urdf(config))
 
 
 def _joint_id(config: RobotConfig, model: Any, name: str) -> int:
@@ -90,7 +89,6 @@ def _check_base(config: RobotConfig, model: Any) -> None:
 
 
 def _add_foot_frame(config: RobotConfig, model: Any, link: str) -> int:
-    """Add a frame at the centre of the foot sphere and return its id."""
     bodies = [frame.name for frame in model.frames if frame.type == pin.FrameType.BODY]
     if link not in bodies:
         raise RobotDescriptionError(f"robot {config.name}: no link '{link}'; known: {', '.join(bodies)}")

@@ -9,9 +9,9 @@ import numpy as np
 import pinocchio as pin
 
 from quadlab.geometry.rotations import Array, matrix_to_quat
+from quadlab.robots.config import foot_links_in_urdf
 from quadlab.robots.legs import JOINTS_PER_LEG
 from quadlab.robots.model import RobotModel
-from quadlab.robots.pinocchio_model import foot_links_in_urdf
 
 ROBOT_CONTACTS = 2
 TERRAIN_CONTACTS = 1

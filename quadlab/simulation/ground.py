@@ -41,7 +41,7 @@ class Ground:
     boxes: tuple[TerrainBox, ...]
 
 
-def heading(yaw: float) -> Array:
+def yaw_quat(yaw: float) -> Array:
     """Return the quaternion wxyz, (4,), of a turn by ``yaw`` in [rad] about z."""
     return np.array([math.cos(0.5 * yaw), 0.0, 0.0, math.sin(0.5 * yaw)])
 
@@ -49,10 +49,10 @@ def heading(yaw: float) -> Array:
 def ground_until(name: str, edge: float, floor_height: float) -> TerrainBox:
     """Return raised ground from far behind to x = ``edge``, from z = 0 down to the floor."""
     center = np.array([edge - 0.5 * _GROUND_LENGTH, 0.0, 0.5 * floor_height])
-    return TerrainBox(name, center, 0.5 * np.array([_GROUND_LENGTH, _GROUND_WIDTH, -floor_height]), heading(0.0))
+    return TerrainBox(name, center, 0.5 * np.array([_GROUND_LENGTH, _GROUND_WIDTH, -floor_height]), yaw_quat(0.0))
 
 
 def ground_from(name: str, edge: float, height: float, width: float = _GROUND_WIDTH) -> TerrainBox:
     """Return raised ground from x = ``edge`` onwards, from ``height`` down to z = 0."""
     center = np.array([edge + 0.5 * _GROUND_LENGTH, 0.0, 0.5 * height])
-    return TerrainBox(name, center, 0.5 * np.array([_GROUND_LENGTH, width, height]), heading(0.0))
+    return TerrainBox(name, center, 0.5 * np.array([_GROUND_LENGTH, width, height]), yaw_quat(0.0))

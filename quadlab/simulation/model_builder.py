@@ -6,14 +6,12 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from quadlab.robots.config import foot_links_in_urdf
 from quadlab.robots.model import RobotModel
-from quadlab.robots.pinocchio_model import foot_links_in_urdf
 from quadlab.simulation.collision import ROBOT_CONTACTS, TERRAIN_CONTACTS, add_collision_shapes
 from quadlab.simulation.conventions import ACCELEROMETER, GYROSCOPE, foot_force_sensor, foot_geom
-from quadlab.simulation.links import LinkPlacement, link_placements
-from quadlab.simulation.terrain import Ground
-
-__all__ = ["LinkPlacement", "build_spec", "link_placements"]
+from quadlab.simulation.ground import Ground
+from quadlab.simulation.links import link_placements
 
 CONTACT_TIME_CONSTANT = 0.005  # [s]
 CONTACT_DAMPING_RATIO = 1.0
@@ -128,12 +126,11 @@ def _add_motors(spec: Any, robot: RobotModel) -> None:
 
 
 def _add_imu(spec: Any, robot: RobotModel) -> None:
-    """Add gyroscope, accelerometer and orientation sensors at the base's origin, in base axes."""
+    """Add gyroscope and accelerometer at the base's origin, in base axes."""
     spec.body(robot.config.base_link).add_site(name=IMU_SITE)
     for name, sensor_type in (
         (GYROSCOPE, mujoco.mjtSensor.mjSENS_GYRO),
         (ACCELEROMETER, mujoco.mjtSensor.mjSENS_ACCELEROMETER),
-        ("orientation", mujoco.mjtSensor.mjSENS_FRAMEQUAT),
     ):
         spec.add_sensor(name=name, type=sensor_type, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=IMU_SITE)
 

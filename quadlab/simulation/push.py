@@ -36,6 +36,10 @@ class PushConfig(StrictModel):
             raise ValueError("expected a direction of non-zero length, got (0, 0, 0)")
         return direction
 
+    def link(self, base_link: str) -> str:
+        """Return the link of the URDF that it acts on, of a robot whose root link is ``base_link``."""
+        return base_link if self.body == BASE_BODY else self.body
+
     @property
     def force(self) -> Array:
         """The force, (3,) in [N]."""

@@ -13,15 +13,14 @@ from quadlab.robots.legs import JOINT_NAMES
 from quadlab.robots.model import RobotModel
 from quadlab.robots.state import JointCommand, JointDrive, RobotState, all_finite
 from quadlab.simulation.conventions import MujocoMap, PhysicsArrays
-from quadlab.simulation.model_builder import build_spec, link_placements
+from quadlab.simulation.links import link_placements
+from quadlab.simulation.model_builder import build_spec
 from quadlab.simulation.model_error import ModelErrorConfig, apply_model_error
-from quadlab.simulation.push import BASE_BODY, PushConfig, ScheduledPush
+from quadlab.simulation.push import PushConfig, ScheduledPush
 from quadlab.simulation.scenario import ScenarioConfig, initial_state
 from quadlab.simulation.sensors import ImuIntegrator, ImuSample
 from quadlab.simulation.terrain import build_ground
 from quadlab.simulation.timing import check_period
-
-__all__ = ["SimulationConfig", "Simulator", "check_period"]
 
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 _ALLOWED_PENETRATION = 1e-3  # [m]
@@ -66,7 +65,7 @@ class Simulator:
 
     def _schedule(self, push: PushConfig) -> ScheduledPush:
         placements = link_placements(self._robot)
-        link = self._robot.config.base_link if push.body == BASE_BODY else push.body
+        link = push.link(self._robot.config.base_link)
         if link not in placements:
             raise ConfigurationError(f"push.body: unknown link '{push.body}'; known: base, {', '.join(placements)}")
         first = math.ceil(push.start_s / self._timestep_s - 1e-6)

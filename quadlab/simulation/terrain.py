@@ -9,11 +9,9 @@ from pydantic import AfterValidator, Field
 from quadlab.configuration import Positive, StrictModel
 from quadlab.errors import ConfigurationError
 from quadlab.geometry.rotations import matrix_to_quat, rotation_zyx
-from quadlab.simulation.ground import Ground, TerrainBox, ground_from, ground_until, heading
+from quadlab.simulation.ground import Ground, TerrainBox, ground_from, ground_until, yaw_quat
 
 _RAMP_THICKNESS = 0.5  # [m]
-
-__all__ = ["Ground", "PlankConfig", "SlopeConfig", "StepConfig", "TerrainBox", "TerrainConfig", "build_ground"]
 
 
 def _not_level(value: float) -> float:
@@ -49,7 +47,7 @@ class PlankConfig(StrictModel):
         """Return the piece's boxes; it reaches down to ``floor_height`` in [m]."""
         center = np.array([self.center_x_m, self.center_y_m, 0.5 * (self.height_m + floor_height)])
         half_size = 0.5 * np.array([self.length_m, self.width_m, self.height_m - floor_height])
-        return [TerrainBox(name, center, half_size, heading(math.radians(self.yaw_deg)))]
+        return [TerrainBox(name, center, half_size, yaw_quat(math.radians(self.yaw_deg)))]
 
 
 class StepConfig(StrictModel):

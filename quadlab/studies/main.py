@@ -1,7 +1,6 @@
 """The command line of studies."""
 
 import argparse
-import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -9,6 +8,7 @@ from quadlab.command_line import EXIT_FAILED, EXIT_OK, exit_code
 from quadlab.studies.config import study_names
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.runner import run_studies
+from quadlab.sweeps.limits import usable_cores
 
 INTERRUPTED = "interrupted; what is done stays, run the same command to go on"
 
@@ -36,8 +36,3 @@ def _positive(text: str) -> int:
     if not (text.isdecimal() and int(text) > 0):
         raise argparse.ArgumentTypeError(f"expected a whole number above 0 (got '{text}')")
     return int(text)
-
-
-def usable_cores() -> int:
-    """Return the number of cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -4,6 +4,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator
 from typing import Annotated, Protocol, Self
 
+import yaml
 from pydantic import Field, StringConstraints, model_validator
 
 from quadlab.configuration import Positive, StrictModel
@@ -90,6 +91,11 @@ class TrialConfig(StrictModel):
     duration_s: Positive
     seed: Annotated[int, Field(ge=0)]
     tag: Tag
+
+    def to_yaml(self) -> str:
+        """Return it as the text of a file."""
+        text: str = yaml.safe_dump(self.model_dump(mode="json"), sort_keys=False)
+        return text
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:

@@ -10,6 +10,7 @@ from quadlab.controllers.telemetry import ControlTelemetry
 from quadlab.estimation.estimate import Estimate
 from quadlab.geometry.rotations import Array
 from quadlab.robots.state import RobotState
+from quadlab.trials.metrics import rms
 
 _VELOCITY, _QUAT = slice(3, 6), slice(6, 10)
 
@@ -64,14 +65,14 @@ class EstimationMetrics:
         velocity_errors = believed_turn.inv().apply(believed[:, _VELOCITY]) - true_turn.inv().apply(true[:, _VELOCITY])
         com_errors = np.linalg.norm(np.array(self._believed_com_errors)[:, :2], axis=1)
         return {
-            "com_error_believed_rms_mm": 1e3 * _rms(com_errors),
+            "com_error_believed_rms_mm": 1e3 * rms(com_errors),
             "com_error_believed_max_mm": 1e3 * float(com_errors.max()),
-            "base_height_believed_rms_mm": 1e3 * _rms(np.array(self._believed_height_errors)),
+            "base_height_believed_rms_mm": 1e3 * rms(np.array(self._believed_height_errors)),
             "estimate_position_drift_mm": 1e3 * math.dist(believed[-1, :3], true[-1, :3]),
             "estimate_yaw_drift_deg": abs(float(turns[-1, 2])),
-            "estimate_roll_pitch_rms_deg": _rms(tilts),
+            "estimate_roll_pitch_rms_deg": rms(tilts),
             "estimate_roll_pitch_max_deg": float(tilts.max()),
-            "estimate_velocity_rms_mps": _rms(np.linalg.norm(velocity_errors, axis=1)),
+            "estimate_velocity_rms_mps": rms(np.linalg.norm(velocity_errors, axis=1)),
             "estimate_innovation_ratio": self._innovation_squared / max(self._innovation_size, 1),
             "estimate_outliers": self._outliers,
             "estimate_update_median_us": float(np.median(self._updates_us)),
@@ -81,7 +82,3 @@ class EstimationMetrics:
 def _base_of(state: RobotState) -> Array:
     """Return position, velocity and quaternion of the base in world components, (10,)."""
     return np.concatenate([state.position_base_in_world, state.linear_velocity_base_in_world, state.quat_wxyz])
-
-
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(np.square(values))))

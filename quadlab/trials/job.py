@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
-import yaml
 from threadpoolctl import threadpool_limits
 
 from quadlab.errors import ConfigurationError, LogError, MissingDependencyError, one_line
@@ -118,7 +117,7 @@ def forget_trial(directory: Path) -> None:
 
 def _run(config: TrialConfig, directory: Path, progress: TrialProgress) -> JobOutcome:
     forget_trial(directory)
-    _write_config(config, directory)
+    write_text(directory / CONFIG_FILE, config.to_yaml())
     result: TrialResult | None = None
     status = "interrupted"
     try:
@@ -144,12 +143,8 @@ def record_failure(config: TrialConfig, options: RunOptions, kind: str, message:
     directory = trial_directory(config, options)
     content = {"type": kind, "message": message, "traceback": output.splitlines(), "argv": sys.argv}
     try:
-        _write_config(config, directory)
+        write_text(directory / CONFIG_FILE, config.to_yaml())
         write_json(directory / ERROR_FILE, content)
     except OSError as error:  # a full disk, say, which may be why the process ended
         return JobOutcome(directory, None, failure=f"{message} ({ERROR_FILE} cannot be written: {error})")
     return JobOutcome(directory, None, failure=f"{message} (see {directory / ERROR_FILE})")
-
-
-def _write_config(config: TrialConfig, directory: Path) -> None:
-    write_text(directory / CONFIG_FILE, yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False))

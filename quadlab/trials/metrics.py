@@ -13,9 +13,9 @@ from itertools import pairwise
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from quadlab.constants import GRAVITY
 from quadlab.controllers.telemetry import ControlTelemetry, LegMode
 from quadlab.geometry.rotations import Array
-from quadlab.planners.problem import GRAVITY
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.state import JointCommand, RobotState
 
@@ -119,10 +119,10 @@ class TrialMetrics:
             "survived_s": survived,
             "distance_m": distance,
             "mean_speed_mps": distance / survived,
-            "com_error_rms_mm": 1e3 * _rms(com_errors),
+            "com_error_rms_mm": 1e3 * rms(com_errors),
             "com_error_max_mm": 1e3 * float(com_errors.max()),
-            "base_height_rms_mm": 1e3 * _rms(ticks["position"][:, 2] - ticks["height_reference"][:, 0]),
-            "roll_pitch_rms_deg": math.degrees(_rms(_roll_pitch_errors(ticks["quat"], ticks["rpy_reference"]))),
+            "base_height_rms_mm": 1e3 * rms(ticks["position"][:, 2] - ticks["height_reference"][:, 0]),
+            "roll_pitch_rms_deg": math.degrees(rms(_roll_pitch_errors(ticks["quat"], ticks["rpy_reference"]))),
             "foot_slip_max_mm": 1e3 * self._longest_slip(ticks["foot_velocities"], ticks["foot_forces"]),
             "torque_max_nm": float(torques.max()),
             "torque_limit_share": float((torques >= _AT_LIMIT * self.torque_limits).any(axis=1).mean()),
@@ -148,7 +148,8 @@ class TrialMetrics:
         return float((way - before_stance).max())
 
 
-def _rms(values: Array) -> float:
+def rms(values: Array) -> float:
+    """Return the root of the mean square."""
     return float(np.sqrt(np.mean(np.square(values))))
 
 

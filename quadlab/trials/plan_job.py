@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-import yaml
 from threadpoolctl import threadpool_limits
 
 from quadlab.planners.plan_io import save_plan
@@ -54,7 +53,7 @@ def run_plan_job(config: TrialConfig, options: RunOptions) -> PlanJobOutcome:
         planner = build_planner(config)
         planner.prepare()
         outcome = solved(planner, planning_problem(config, robot, state))
-    write_text(directory / CONFIG_FILE, yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False))
+    write_text(directory / CONFIG_FILE, config.to_yaml())
     (directory / PLAN_FILE).unlink(missing_ok=True)
     if outcome.plan is not None:
         save_plan(outcome.plan, directory / PLAN_FILE)

@@ -6,8 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from quadlab.controllers.controller import Controller
 from quadlab.controllers.tracking_controller import build_controller
 from quadlab.planners.plan import MotionPlan
@@ -165,7 +163,7 @@ def _recorder(
     plan: MotionPlan,
 ) -> TrialRecorder:
     files: Attachments = {
-        CONFIG_ATTACHMENT: ("text/yaml", yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False).encode()),
+        CONFIG_ATTACHMENT: ("text/yaml", config.to_yaml().encode()),
         URDF_ATTACHMENT: ("application/xml", robot.urdf_text.encode()),
     }
     manifest = directory / MANIFEST_FILE

@@ -9,6 +9,7 @@ import numpy as np
 import pinocchio as pin
 import yaml
 
+from quadlab.constants import GRAVITY
 from quadlab.controllers.hierarchical import HierarchicalResolver
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tracking.config import TrackingConfig
@@ -18,7 +19,6 @@ from quadlab.geometry.rotations import Array, matrix_to_quat, rotation_z
 from quadlab.geometry.splines import PiecewisePolynomial
 from quadlab.paths import CONF_DIR
 from quadlab.planners.plan import MotionPlan, PlanReport, PlanVerdict
-from quadlab.planners.problem import GRAVITY
 from quadlab.robots.catalogue import robot_config
 from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.model import RobotModel, load_robot

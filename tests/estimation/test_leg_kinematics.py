@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from estimation_cases import robot_named
 
+from quadlab.constants import GRAVITY
 from quadlab.estimation.leg_kinematics import LegModel
 from quadlab.geometry.rotations import matrix_to_quat, rotation_zyx
-from quadlab.planners.problem import GRAVITY
 from quadlab.robots.kinematics import BASE_ANGULAR, BASE_LINEAR, JOINTS
 from quadlab.robots.legs import LEG_COUNT, joints_of
 from quadlab.robots.model import RobotModel

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from estimation_cases import PERIOD, any_covariance, any_filter_state, ekf_config
 
+from quadlab.constants import GRAVITY
 from quadlab.estimation.error_state import (
     ERROR_SIZE,
     FEET,
@@ -16,7 +17,6 @@ from quadlab.estimation.error_state import (
 )
 from quadlab.estimation.prediction import predict, propagate
 from quadlab.geometry.rotations import Array, rotation_zyx
-from quadlab.planners.problem import GRAVITY
 from quadlab.robots.sensing import SensorReading
 
 RADIUS = 0.03  # [m]

@@ -73,8 +73,9 @@ def test_blend_lies_between_the_planes_everywhere() -> None:
         assert blended.height_at(xy) == pytest.approx(0.7 * old.height_at(xy) + 0.3 * new.height_at(xy))
 
 
-def test_points_on_one_line_leave_the_plane_as_it_was() -> None:
+@pytest.mark.parametrize("direction", [(1.0, 1.0, 0.5), (0.1, 0.3, 0.2), (0.3, -0.7, 0.1), (0.0, 0.1, 0.2)])
+def test_points_on_one_line_leave_the_plane_as_it_was(direction: tuple[float, ...]) -> None:
     """The feet of a robot that lies on its side: the next plane that is one counts again."""
-    old, line = plane(0.1, (0.2, 0.0)), np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 0.5], [2.0, 2.0, 1.0], [3.0, 3.0, 1.5]])
+    old, line = plane(0.1, (0.2, 0.0)), np.outer([0.0, 1.0, 2.0, 3.0], direction)
     kept = blend(old, fit_plane(line, np.array([1.0, 0.0])), 0.3)
     assert kept == old.moved_to((1.0, 0.0))

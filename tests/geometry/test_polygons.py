@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import lsq_linear
 from scipy.spatial import ConvexHull
 
-from quadlab.geometry.polygons import convex_hull, distance_inside, distance_outside
+from quadlab.geometry.polygons import convex_hull, distance_inside, distances_outside
 from quadlab.geometry.rotations import Array
 
 TRIANGLE = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
@@ -59,15 +59,16 @@ def test_hull_of_a_point_or_a_line_is_its_ends(points: list[list[float]], count:
 def test_distance_is_that_to_the_nearest_convex_combination(count: int, seed: int) -> None:
     generator = np.random.default_rng(seed)
     corners = generator.normal(size=(count, 2))
-    for point in 1.5 * generator.normal(size=(8, 2)):
-        assert distance_outside(point, corners) == pytest.approx(brute_force_distance(point, corners), abs=1e-5)
+    points = 1.5 * generator.normal(size=(8, 2))
+    expected = [brute_force_distance(point, corners) for point in points]
+    assert distances_outside(points, corners) == pytest.approx(expected, abs=1e-5)
 
 
 def test_every_convex_combination_is_inside() -> None:
     generator = np.random.default_rng(3)
     corners = generator.normal(size=(5, 2))
-    for weights in generator.dirichlet(np.ones(5), 50):
-        assert distance_outside(weights @ corners, corners) == 0.0
+    weights = generator.dirichlet(np.ones(5), 50)
+    assert np.all(distances_outside(weights @ corners, corners) == 0.0)
 
 
 @pytest.mark.parametrize(
@@ -75,12 +76,12 @@ def test_every_convex_combination_is_inside() -> None:
     [([0.2, 0.2], 0.0), ([0.0, 0.0], 0.0), ([-0.3, 0.5], 0.3), ([1.0, 1.0], math.sqrt(0.5)), ([4.0, -4.0], 5.0)],
 )
 def test_distances_to_a_triangle(point: list[float], distance: float) -> None:
-    assert distance_outside(np.array(point), TRIANGLE) == pytest.approx(distance)
+    assert distances_outside(np.array([point]), TRIANGLE)[0] == pytest.approx(distance)
 
 
 @pytest.mark.parametrize(("point", "distance"), [([0.5, 0.0], 0.0), ([0.5, 0.2], 0.2), ([4.0, 4.0], 5.0)])
 def test_two_feet_support_a_segment(point: list[float], distance: float) -> None:
-    assert distance_outside(np.array(point), TRIANGLE[:2]) == pytest.approx(distance)
+    assert distances_outside(np.array([point]), TRIANGLE[:2])[0] == pytest.approx(distance)
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -12,11 +12,9 @@ from quadlab.errors import PlanningProblemError
 from quadlab.gaits.schedule import ContactSchedule
 from quadlab.geometry.curve import Curve
 from quadlab.geometry.lip_curve import LipCurve
-from quadlab.geometry.polygons import distance_outside
 from quadlab.geometry.splines import PiecewisePolynomial
 from quadlab.planners.checker import check_plan
 from quadlab.planners.plan import MotionPlan, PlanVerdict
-from quadlab.planners.sampling import distances_outside
 
 
 def judged(motion: MotionPlan) -> PlanVerdict:
@@ -104,11 +102,3 @@ def test_other_schedule_is_refused() -> None:
     schedule = ContactSchedule(motion.schedule.durations_s, ~motion.schedule.contacts)
     with pytest.raises(PlanningProblemError, match="schedule"):
         judged(replace(motion, schedule=schedule))
-
-
-@pytest.mark.parametrize("corner_count", [1, 2, 3, 4])
-def test_distances_outside_agree_with_the_scalar_function(corner_count: int) -> None:
-    random = np.random.default_rng(corner_count)
-    corners, points = random.standard_normal((corner_count, 2)), random.standard_normal((50, 2))
-    expected = [distance_outside(point, corners) for point in points]
-    np.testing.assert_allclose(distances_outside(points, corners), expected, atol=1e-12)

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from quadlab.errors import PlanningProblemError
 from quadlab.gaits.schedule import ContactSchedule
-from quadlab.geometry.polygons import distance_outside
+from quadlab.geometry.polygons import distances_outside
 from quadlab.planners.checker import check_plan
 from quadlab.planners.planner import PlanningStatus
 from quadlab.planners.problem import Waypoints
@@ -106,9 +106,8 @@ def test_motion_has_no_defect_and_the_cop_stays_in_the_hull(robot: str, gait_nam
     assert motion.verdict.values["dynamics_defect_m_s2"] < 1e-6
     for time in np.linspace(1e-4, motion.duration_s - 1e-4, 500):
         stands = np.flatnonzero(motion.schedule.contacts_at(time)).tolist()
-        stances = [motion.schedule.swing_at(leg, time)[0] for leg in stands]
-        corners = np.array([motion.footholds[leg][row][:2] for leg, row in zip(stands, stances, strict=True)])
-        assert distance_outside(motion.cop(time), corners) < 1e-7
+        corners = np.array([motion.foothold_at(leg, time)[:2] for leg in stands])
+        assert distances_outside(motion.cop(time)[None], corners)[0] < 1e-7
 
 
 @case

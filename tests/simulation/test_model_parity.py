@@ -13,8 +13,9 @@ from quadlab.robots.catalogue import robot_config, robot_names
 from quadlab.robots.model import RobotModel, load_robot
 from quadlab.robots.state import RobotState
 from quadlab.simulation.conventions import MujocoMap, foot_geom
-from quadlab.simulation.model_builder import build_spec, link_placements
-from quadlab.simulation.terrain import Ground
+from quadlab.simulation.ground import Ground
+from quadlab.simulation.links import link_placements
+from quadlab.simulation.model_builder import build_spec
 
 STATES = 20
 

@@ -14,8 +14,9 @@ from quadlab.robots.model import RobotModel, load_robot
 from quadlab.robots.state import JointCommand, RobotState
 from quadlab.simulation.push import PushConfig
 from quadlab.simulation.scenario import InitialPerturbationConfig, ScenarioConfig
-from quadlab.simulation.simulator import Simulator, check_period
+from quadlab.simulation.simulator import Simulator
 from quadlab.simulation.terrain import PlankConfig, TerrainConfig
+from quadlab.simulation.timing import check_period
 
 TIMESTEP = 0.00125  # [s]
 GRAVITY = 9.81  # [m/s^2]

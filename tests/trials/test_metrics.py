@@ -7,7 +7,7 @@ import pytest
 
 from quadlab.analysis.log_reader import read_log
 from quadlab.analysis.trial_log import vectors
-from quadlab.planners.problem import GRAVITY
+from quadlab.constants import GRAVITY
 from quadlab.robots.model import load_robot
 from quadlab.trials.compose import compose_trial
 from quadlab.trials.config import RunOptions

@@ -8,10 +8,8 @@ from quadlab.configuration import NonNegative, Positive, StrictModel, register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.task import TaskRows, Variable, equation
 from quadlab.geometry.rotations import Array
-from quadlab.robots.kinematics import Kinematics
-from quadlab.robots.legs import LEG_COUNT
-
-_FIRST_JOINT = 6
+from quadlab.robots.kinematics import JOINTS, Kinematics
+from quadlab.robots.legs import LEG_COUNT, joints_of
 
 
 def leg_manipulability(jacobian: Array) -> float:
@@ -60,8 +58,7 @@ class ManipulabilityHeightTask:
         """Return one row in accelerations."""
         upward = 0.0
         for leg in range(LEG_COUNT):
-            columns = slice(_FIRST_JOINT + 3 * leg, _FIRST_JOINT + 3 * leg + 3)
-            jacobian = kinematics.foot_jacobians[leg][:, columns]
+            jacobian = kinematics.foot_jacobians[leg][:, JOINTS][:, joints_of(leg)]
             reach = kinematics.foot_positions[leg] - kinematics.hip_positions[leg]
             lengthens = np.sign(reach @ jacobian[:, 2])
             upward += lengthens * knee_gradient(jacobian, kinematics.leg_joint_axes[leg])

@@ -7,10 +7,8 @@ import numpy as np
 from quadlab.configuration import StrictModel, register
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.tasks.task import TaskRows, Variable, equation
-from quadlab.robots.kinematics import VELOCITY_SIZE, Kinematics
+from quadlab.robots.kinematics import JOINTS, VELOCITY_SIZE, Kinematics
 from quadlab.robots.legs import joints_of
-
-_FIRST_JOINT = 6
 
 
 @register("task", "swing_joint_hold")
@@ -28,6 +26,4 @@ class SwingJointHoldTask:
     def rows(self, kinematics: Kinematics, reference: ControlReference) -> TaskRows:
         """Return three rows in accelerations for each leg in the air."""
         joints = [joint for leg in reference.swing_legs for joint in range(*joints_of(leg).indices(VELOCITY_SIZE))]
-        matrix = np.zeros((len(joints), VELOCITY_SIZE))
-        matrix[np.arange(len(joints)), np.array(joints, dtype=int) + _FIRST_JOINT] = 1.0
-        return equation(Variable.ACCELERATION, matrix, np.zeros(len(joints)))
+        return equation(Variable.ACCELERATION, np.eye(VELOCITY_SIZE)[JOINTS][joints], np.zeros(len(joints)))

@@ -57,7 +57,8 @@ class ContactConfig(StrictModel):
         settling_s: time after touch-down in which lost contact is ignored in [s].
         search_speed_mps: how fast a searching foot goes down in [m/s].
         slip_m: motion of a standing foot beyond which its stance point is measured anew in [m].
-        freeze_plan_while_searching: stop the plan's clock until a late foot has touched down.
+        freeze_plan_while_searching: let the plan's clock run down while a late foot, or one that has lost its contact,
+            looks for the ground.
     """
 
     touch_down_force_share: Positive

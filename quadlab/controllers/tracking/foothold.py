@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
+from quadlab.constants import GRAVITY
 from quadlab.geometry.rotations import Array
 from quadlab.jit import compiled
-from quadlab.planners.problem import GRAVITY
 
 
 @compiled

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quadlab.constants import GRAVITY
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.telemetry import LegMode
 from quadlab.controllers.tracking.alignment import (
@@ -34,7 +35,6 @@ from quadlab.geometry.pose_curve import PoseMotion
 from quadlab.geometry.rotations import Array, yaw_of
 from quadlab.planners.capture_point import capture_point
 from quadlab.planners.plan import MotionPlan, PlanSample
-from quadlab.planners.problem import GRAVITY
 from quadlab.robots.kinematics import Kinematics
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.model import RobotModel

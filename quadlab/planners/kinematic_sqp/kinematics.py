@@ -9,7 +9,7 @@ from quadlab.geometry.rotations import Array
 from quadlab.planners.kinematic_sqp.layout import POSE_SIZE
 from quadlab.robots.legs import JOINTS_PER_LEG, LEG_COUNT
 from quadlab.robots.model import RobotModel
-from quadlab.robots.pinocchio_model import foot_links_in_urdf, joint_names_in_urdf
+from quadlab.robots.pinocchio_model import add_foot_frames
 
 _BASE_SIZE = 6
 _LEG_COLUMNS = tuple(
@@ -35,18 +35,12 @@ class SampleKinematics:
         root.addJoint(pin.JointModelTranslation())
         root.addJoint(pin.JointModelSphericalZYX())
         self._model: Any = pin.buildModelFromXML(robot.urdf_text, root)
-        self._frames = [self._add_foot(robot, link) for link in foot_links_in_urdf(robot.config)]
+        self._frames = add_foot_frames(robot.config, self._model)
         self._data: Any = self._model.createData()
-        joints = [self._model.joints[self._model.getJointId(name)].idx_q for name in joint_names_in_urdf(robot.config)]
+        joints = [self._model.joints[self._model.getJointId(name)].idx_q for name in robot.joint_names]
         self._order = np.array([*range(_BASE_SIZE), *joints])
         self._leg_columns = [self._order[list(columns)] for columns in _LEG_COLUMNS]
         self._foot_radius = robot.foot_radius
-
-    def _add_foot(self, robot: RobotModel, link: str) -> int:
-        foot = self._model.frames[self._model.getFrameId(link, pin.FrameType.BODY)]
-        placement = foot.placement * pin.SE3(np.eye(3), np.array(robot.config.foot_center_m))
-        frame = pin.Frame(f"{link}_center", foot.parentJoint, placement, pin.FrameType.OP_FRAME)
-        return int(self._model.addFrame(frame))
 
     def positions(self, poses: Array) -> tuple[Array, Array]:
         """Return the CoM, (N, 3), and the contact points, (N, 4, 3), in [m], of configurations (N, 18)."""

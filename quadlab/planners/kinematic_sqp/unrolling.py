@@ -38,7 +38,6 @@ class UnrolledMotion:
 
     Attributes:
         times_s: (M,) in [s].
-        samples: number of the planned sample behind each of them, (M,).
         com: (M, 3) in [m].
         base_positions: (M, 3) in [m].
         base_rotations: yaw, pitch, roll, (M, 3) in [rad]; the yaw is not wrapped.
@@ -46,7 +45,6 @@ class UnrolledMotion:
     """
 
     times_s: Array
-    samples: IndexArray
     com: Array
     base_positions: Array
     base_rotations: Array
@@ -91,7 +89,6 @@ def _moved(
     feet = [motion.points(points) for motion, points in zip(motions, layout.feet(p)[samples], strict=True)]
     return UnrolledMotion(
         times_s=times_s,
-        samples=samples,
         com=spatial("com"),
         base_positions=spatial("base_position"),
         base_rotations=rotations,

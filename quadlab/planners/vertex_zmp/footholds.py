@@ -78,6 +78,17 @@ class FootholdIndex:
             middles += [self.schedule.duration_s] * bool(swings)
         return np.array(middles)
 
+    def nominal_places(self, nominal_feet: Array, yaws: Array) -> Array:
+        """Return where the foot of each free stance is in the nominal stance around the CoM, (M - F, 2) in [m].
+
+        Args:
+            nominal_feet: of all feet in the heading frame, (F, 2) in [m].
+            yaws: heading in each free stance, (M - F,) in [rad].
+        """
+        cosine, sine = np.cos(yaws), np.sin(yaws)
+        forward, left = nominal_feet[self.free_legs].T
+        return np.stack([cosine * forward - sine * left, sine * forward + cosine * left], axis=1)
+
     def position_shares(self, leg: int, times_s: Array) -> tuple[IntArray, Array]:
         """Return (stance, share of the next one) at ``times_s``, both (s,).
 

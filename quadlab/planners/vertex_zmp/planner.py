@@ -66,8 +66,7 @@ class VertexZmpPlanner:
         plan = transcription.motion_plan(solution.x, _report(transcription, solution))
         verdict = check_plan(plan, problem, self.config.checker)
         if not verdict.accepted:
-            found = ", ".join(f"{n} {verdict.values[n]:.3g} > {verdict.tolerances[n]:.3g}" for n in verdict.violated)
-            return PlanningOutcome(PlanningStatus.REJECTED, f"the checker found {found}", None)
+            return PlanningOutcome(PlanningStatus.REJECTED, f"the checker found {verdict.complaint}", None)
         return PlanningOutcome(PlanningStatus.SOLVED, solution.status, replace(plan, verdict=verdict))
 
 

@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
+import numpy as np
+
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan, PlanReport
 from quadlab.planners.problem import PlanningProblem
@@ -34,6 +36,11 @@ class Solution:
     costs: Mapping[str, float]
     residuals: Mapping[str, float]
     cost_history: tuple[Mapping[str, float], ...]
+
+
+def worst_violation(violations: Array) -> float:
+    """Return the largest violation, at least 0; NaN if there is one."""
+    return float(np.maximum(violations, 0.0).max(initial=0.0))
 
 
 class Build(Protocol):

@@ -7,7 +7,7 @@ import numpy as np
 from quadlab.gaits.schedule import Swing
 from quadlab.geometry.curve import Curve
 from quadlab.geometry.rotations import Array
-from quadlab.planners.problem import PlanningProblem, Waypoints
+from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.sampling import turned_vertices
 
 
@@ -26,7 +26,7 @@ def nominal_footholds(problem: PlanningProblem, heading: Curve) -> tuple[Array, 
         times = stance_middles(swings, problem.schedule.duration_s)
         yaws = np.array([heading(time)[0] for time in times])
         nominal = problem.model.nominal_feet[foot : foot + 1]
-        places = path_positions(problem.waypoints, times) + turned_vertices(nominal, yaws).reshape(-1, 2)
+        places = problem.waypoints.positions_at(times) + turned_vertices(nominal, yaws).reshape(-1, 2)
         on_ground = np.column_stack([places, np.zeros(len(times))])
         feet.append(np.concatenate([problem.start.feet[foot : foot + 1], on_ground]))
     return tuple(feet)
@@ -36,8 +36,3 @@ def stance_middles(swings: tuple[Swing, ...], end_s: float) -> Array:
     """Return the middle of the stance after each swing, (swings,) in [s]; ``end_s`` for the last one."""
     middles = [0.5 * (before.end_s + after.start_s) for before, after in pairwise(swings)]
     return np.array([*middles, end_s] if swings else [])
-
-
-def path_positions(waypoints: Waypoints, times_s: Array) -> Array:
-    """Return x and y of the straight lines between waypoints at ``times_s`` (s,) in [s]; (s, 2) in [m]."""
-    return np.stack([np.interp(times_s, waypoints.times_s, waypoints.poses[:, axis]) for axis in range(2)], axis=1)

@@ -60,15 +60,14 @@ class ZmpSplinePlanner:
         plan = motion_plan(transcription.model, states, self._report(transcription, program, answer))
         verdict = check_plan(plan, transcription.problem, self.config.checker)
         if not verdict.accepted:
-            found = ", ".join(f"{n} {verdict.values[n]:.3g} > {verdict.tolerances[n]:.3g}" for n in verdict.violated)
-            return PlanningOutcome(PlanningStatus.REJECTED, f"the checker found {found}", None)
+            return PlanningOutcome(PlanningStatus.REJECTED, f"the checker found {verdict.complaint}", None)
         said = f"{self.config.qp_solver}: optimality residual {answer.residual:.1e}"
         return PlanningOutcome(PlanningStatus.SOLVED, said, replace(plan, verdict=verdict))
 
     def _violated(self, program: QuadraticProgram, states: np.ndarray) -> dict[str, float]:
         """Return the sets of hard bounds that ``states`` violate by more than the tolerance, in [m]."""
-        hard = {bound.name for bound in program.bounds if bound.slack_weights is None}
         found = program.violations(states)
+        hard = [bound.name for bound in program.bounds if bound.slack_weights is None]
         return {name: found[name] for name in hard if not found[name] <= self.config.constraint_tolerance_m}
 
     def _failed(

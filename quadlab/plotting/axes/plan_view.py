@@ -98,10 +98,15 @@ def phase_colour(contacts: BoolArray) -> str:
     return LEG_COLOURS[swinging[0]] if len(swinging) else NEUTRAL
 
 
+def phase_spans(contacts: BoolArray) -> list[tuple[int, int]]:
+    """Return first sample of each phase and of the one after it, given the flags of all samples, (n, 4)."""
+    switches = np.flatnonzero(np.any(contacts[1:] != contacts[:-1], axis=1)) + 1
+    return list(pairwise([0, *switches.tolist(), len(contacts) - 1]))
+
+
 def draw_by_phase(axes: Axes, points: Array, contacts: BoolArray) -> None:
     """Draw a line through ``points``, (n, 2), in the colours of the phases that ``contacts``, (n, 4), are in."""
-    bounds = [0, *(np.flatnonzero(np.any(contacts[1:] != contacts[:-1], axis=1)) + 1).tolist(), len(points) - 1]
-    pieces = [(points[begin : end + 1], contacts[begin]) for begin, end in pairwise(bounds)]
+    pieces = [(points[begin : end + 1], contacts[begin]) for begin, end in phase_spans(contacts)]
     colours = [phase_colour(flags) for _, flags in pieces]
     lines = LineCollection([piece for piece, _ in pieces], colors=colours, linewidths=_COM_WIDTH, zorder=3.5)
     axes.add_collection(lines)

@@ -33,7 +33,6 @@ class RecordedPush:
         interval: when.
         force: mean over the interval in world axes, (3,) in [N].
         com_position: where the robot was when it began, (2,) in [m].
-        label: e.g. "120 N".
     """
 
     interval: Interval

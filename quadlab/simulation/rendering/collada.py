@@ -1,8 +1,8 @@
 """Reader of COLLADA 1.4 and 1.5 (.dae) surfaces: the part of the format that robot descriptions use.
 
-Read: <triangles>, <polylist>, <polygons> without holes, node transforms, instanced nodes, unit, up axis, diffuse
-colour or texture. Lines and points are skipped: they have no surface. Everything else that would change the shape
-(skins, strips, fans, splines) is an error, so that no part of a robot is lost in silence.
+Read: <triangles>, <polylist>, <polygons> without holes, node transforms, instanced nodes, unit, diffuse colour or
+texture. Lines and points are skipped: they have no surface. Everything else that would change the shape (skins, strips,
+fans, splines) is an error, so that no part of a robot is lost in silence.
 """
 
 import xml.etree.ElementTree as ET
@@ -16,7 +16,7 @@ from quadlab.errors import RobotDescriptionError
 from quadlab.geometry.rotations import Array
 from quadlab.simulation.rendering.collada_materials import Diffuse, diffuse_of
 from quadlab.simulation.rendering.collada_polygons import Corners, corner_table
-from quadlab.simulation.rendering.collada_transforms import axes_to_z_up, node_transform
+from quadlab.simulation.rendering.collada_transforms import node_transform
 
 SURFACES = ("triangles", "polylist", "polygons")
 WITHOUT_SURFACE = ("source", "vertices", "lines", "linestrips", "extra")
@@ -37,13 +37,11 @@ class ColladaPart:
     diffuse: Diffuse
 
 
-def read_collada(path: Path, *, turn_z_up: bool) -> list[ColladaPart]:
+def read_collada(path: Path) -> list[ColladaPart]:
     """Return the surfaces of a .dae file, placed by its scene, in [m].
 
-    Args:
-        path: the file.
-        turn_z_up: whether to turn the file's up axis to z. Viewers of robot descriptions do not, and descriptions
-            are made to look right in them: their meshes are meant in the axes they are written in.
+    The up axis is not turned to z: viewers of robot descriptions do not turn it, and descriptions are made to look
+    right in them.
 
     Raises:
         RobotDescriptionError: if the file is not COLLADA or uses what this reader does not know.
@@ -56,7 +54,7 @@ def read_collada(path: Path, *, turn_z_up: bool) -> list[ColladaPart]:
         raise RobotDescriptionError(f"{path}: expected the root element COLLADA, found '{root.tag}'")
     for element in root.iter():
         element.tag = element.tag.rpartition("}")[2]
-    return _Document(path, root).parts(turn_z_up)
+    return _Document(path, root).parts()
 
 
 class _Document:
@@ -67,12 +65,11 @@ class _Document:
         self._root = root
         self._by_id = {element.get("id", ""): element for element in root.iter() if element.get("id")}
 
-    def parts(self, turn_z_up: bool) -> list[ColladaPart]:
+    def parts(self) -> list[ColladaPart]:
         unit = self._root.find("asset/unit")
         scale = 1.0 if unit is None else float(unit.get("meter", "1"))
-        up_axis = (self._root.findtext("asset/up_axis") or "Y_UP").strip()
         transform = np.eye(4)
-        transform[:3, :3] = scale * (axes_to_z_up(up_axis, self._path) if turn_z_up else np.eye(3))
+        transform[:3, :3] = scale * np.eye(3)
         scene = self._root.find("scene/instance_visual_scene")
         if scene is None:
             raise RobotDescriptionError(f"{self._path}: the file has no scene")

@@ -1,4 +1,4 @@
-"""Transforms of COLLADA nodes and its up axes."""
+"""Transforms of COLLADA nodes."""
 
 import math
 import xml.etree.ElementTree as ET
@@ -8,24 +8,6 @@ import numpy as np
 
 from quadlab.errors import RobotDescriptionError
 from quadlab.geometry.rotations import Array, skew
-
-AXES_TO_Z_UP = {
-    "X_UP": np.array([[0.0, -1.0, 0.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]]),
-    "Y_UP": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
-    "Z_UP": np.eye(3),
-}
-"""Rotations, (3, 3), that bring a file's up axis to z."""
-
-
-def axes_to_z_up(up_axis: str, path: Path) -> Array:
-    """Return the rotation, (3, 3), from the file's axes to axes with z up.
-
-    Raises:
-        RobotDescriptionError: if the up axis is unknown.
-    """
-    if up_axis not in AXES_TO_Z_UP:
-        raise RobotDescriptionError(f"{path}: unknown up_axis '{up_axis}'; known: {', '.join(AXES_TO_Z_UP)}")
-    return AXES_TO_Z_UP[up_axis]
 
 
 def node_transform(node: ET.Element, path: Path) -> Array:

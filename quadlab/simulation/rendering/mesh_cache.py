@@ -52,7 +52,7 @@ def _load(file: Path) -> list[TriangleMesh] | None:
         with np.load(file) as content:
             count = len(content.files) // 3
             parts = [[content[f"{name}{k}"] for name in ("vertices", "triangles", "rgba")] for k in range(count)]
-    except (OSError, ValueError, KeyError, zipfile.BadZipFile):
+    except (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile):
         return None
     return [TriangleMesh(v.astype(float), t, rgba.astype(float) if rgba.size else None) for v, t, rgba in parts]
 

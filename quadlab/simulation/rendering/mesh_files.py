@@ -36,7 +36,7 @@ def read_mesh(path: Path) -> list[TriangleMesh]:
 
 
 def _read_dae(path: Path) -> list[TriangleMesh]:
-    return merge([mesh for part in read_collada(path, turn_z_up=False) for mesh in colored_meshes(part)])
+    return merge([mesh for part in read_collada(path) for mesh in colored_meshes(part)])
 
 
 def _read_stl(path: Path) -> list[TriangleMesh]:

@@ -6,12 +6,14 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from quadlab.constants import GRAVITY
 from quadlab.geometry.rotations import Array, quat_to_matrix, yaw_of
 from quadlab.robots.legs import LEG_COUNT
 from quadlab.robots.model import RobotModel
 from quadlab.simulation.conventions import foot_geom
-from quadlab.simulation.model_builder import build_spec, link_placements
-from quadlab.simulation.push import BASE_BODY, PushConfig
+from quadlab.simulation.links import link_placements
+from quadlab.simulation.model_builder import build_spec
+from quadlab.simulation.push import PushConfig
 from quadlab.simulation.rendering import overlay
 from quadlab.simulation.rendering.camera import camera_at, smoothed
 from quadlab.simulation.rendering.config import RenderConfig
@@ -37,8 +39,6 @@ LINE_SHARE = 0.006
 CAMERA_STEP_S = 0.02
 CELL_DIGITS = 4
 """Mesh cells are rounded to this many digits in [m], so that the cache serves variants of one robot."""
-
-GRAVITY = 9.81  # [m/s^2]
 
 
 def robot_size(robot: RobotModel) -> float:
@@ -126,7 +126,7 @@ class _TrialPicture:
                 overlay.add_arrow(scene, tip - length * direction, tip, 0.03 * self._size, overlay.PUSH_RGBA)
 
     def _pushed_body(self, push: PushConfig) -> int:
-        link = self._robot.config.base_link if push.body == BASE_BODY else push.body
+        link = push.link(self._robot.config.base_link)
         return int(self.model.body(link_placements(self._robot)[link].body).id)
 
     def _draw_foot_forces(self, scene: Any, moments: Motion, index: int) -> None:

@@ -1,6 +1,6 @@
 """Video and strip of a trial: what the command line draws."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,9 +19,6 @@ from quadlab.simulation.scenario import ScenarioConfig
 VIDEO_NAME = "video.mp4"
 STRIP_NAME = "strip.png"
 
-Progress = Callable[[int, int], None]
-"""Called after each frame with the number of frames drawn and to draw."""
-
 
 @dataclass(frozen=True)
 class RenderedTrial:
@@ -39,12 +36,7 @@ class RenderedTrial:
 
 
 def render_trial(
-    robot: RobotModel,
-    scenario: ScenarioConfig,
-    motion: Motion,
-    folder: Path,
-    config: RenderConfig,
-    on_frame: Progress | None = None,
+    robot: RobotModel, scenario: ScenarioConfig, motion: Motion, folder: Path, config: RenderConfig
 ) -> RenderedTrial:
     """Draw a recorded trial into ``video.mp4`` and ``strip.png`` in ``folder``.
 
@@ -54,7 +46,6 @@ def render_trial(
         motion: the record.
         folder: is made if it does not exist; files of these names are replaced.
         config: how to draw.
-        on_frame: called after each frame.
 
     Raises:
         MissingDependencyError: if OpenGL or ffmpeg is missing; says what to install.
@@ -71,8 +62,6 @@ def render_trial(
             if index in chosen:
                 snapshots[index] = frame
             yield frame
-            if on_frame is not None:
-                on_frame(index + 1, len(times_s))
 
     count = write_video(watched(), folder / VIDEO_NAME, config.fps)
     labels = [f"{times_s[index]:.2f} s" for index in snapshots]

@@ -8,7 +8,7 @@ import numpy as np
 from quadlab.geometry.rotations import Array, matrix_to_quat, quat_to_matrix
 from quadlab.robots.description import description_folder, urdf_path
 from quadlab.robots.model import RobotModel
-from quadlab.simulation.model_builder import LinkPlacement, link_placements
+from quadlab.simulation.links import LinkPlacement, link_placements
 from quadlab.simulation.rendering.mesh_cache import load_compact
 from quadlab.simulation.rendering.urdf_visuals import LinkVisual, link_visuals
 

@@ -112,10 +112,11 @@ def test_cache_gives_the_same_mesh_and_writes_once(tmp_path: Path) -> None:
     assert not list(tmp_path.rglob("*.part"))
 
 
-def test_damaged_cache_is_replaced(tmp_path: Path) -> None:
+@pytest.mark.parametrize("size", [0, 100])
+def test_damaged_cache_is_replaced(tmp_path: Path, size: int) -> None:
     fresh = load_compact(anymal_shank(), 0.01, tmp_path)
     (file,) = tmp_path.rglob("*.npz")
-    file.write_bytes(file.read_bytes()[:100])
+    file.write_bytes(file.read_bytes()[:size])
     assert len(load_compact(anymal_shank(), 0.01, tmp_path)) == len(fresh)
     assert file.stat().st_size > 100
 

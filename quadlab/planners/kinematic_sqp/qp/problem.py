@@ -8,6 +8,9 @@ from scipy.sparse import csc_array
 
 from quadlab.geometry.rotations import Array
 
+_OPEN_BOUND = 1e3
+"""Where a bound that is not there counts to be: a row with a multiplier at it is far from optimal."""
+
 
 @dataclass(frozen=True)
 class QuadraticProgram:
@@ -62,7 +65,7 @@ def residual(program: QuadraticProgram, answer: QpAnswer) -> float:
     value = program.rows @ step
     violation = np.maximum(program.lower - value, value - program.upper)
     bound = np.where(multipliers > 0.0, program.upper, program.lower)
-    slack = np.where(np.abs(multipliers) > 0.0, np.abs(value - np.where(np.isfinite(bound), bound, 1e3)), 0.0)
+    slack = np.where(np.abs(multipliers) > 0.0, np.abs(value - np.where(np.isfinite(bound), bound, _OPEN_BOUND)), 0.0)
     return float(
         max(
             np.abs(stationarity).max(initial=0.0) / scale,

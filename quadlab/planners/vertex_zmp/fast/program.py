@@ -8,6 +8,7 @@ from scipy import sparse
 
 from quadlab.geometry.rotations import Array
 from quadlab.planners.vertex_zmp.fast.rows import Products
+from quadlab.planners.vertex_zmp.solution import worst_violation
 
 
 @dataclass(frozen=True)
@@ -67,10 +68,5 @@ class BilinearProgram:
         """Return the worst violation of each constraint set, in the unit that its name carries."""
         equality, inequality = self.equality_values(z), self.inequality @ z
         outside = np.maximum(self.lower - inequality, inequality - self.upper)
-        found = {name: _worst(np.abs(equality[rows])) for name, rows in self.equality_sets.items()}
-        return found | {name: _worst(outside[rows]) for name, rows in self.inequality_sets.items()}
-
-
-def _worst(violations: Array) -> float:
-    """Return the largest violation, at least 0; NaN if there is one."""
-    return float(np.maximum(violations, 0.0).max(initial=0.0))
+        found = {name: worst_violation(np.abs(equality[rows])) for name, rows in self.equality_sets.items()}
+        return found | {name: worst_violation(outside[rows]) for name, rows in self.inequality_sets.items()}

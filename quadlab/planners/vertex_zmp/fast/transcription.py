@@ -88,31 +88,17 @@ def sliding_guess(model: ReducedModel) -> Array:
 
     The paper begins with the robot standing in its default stance; for long horizons this is closer.
     """
-    columns, footholds = model.columns, model.footholds
+    columns, footholds, waypoints = model.columns, model.footholds, model.problem.waypoints
     vector = np.zeros(columns.size)
-    path = _path(model, model.grid.knots_s)
+    path = waypoints.positions_at(model.grid.knots_s)
     vector[columns.states[:, 0]] = path
     vector[columns.states[:, 1]] = np.gradient(path, model.grid.knots_s, axis=0)
-    yaw = model.yaw(footholds.free_middles_s)
-    nominal = model.problem.model.nominal_feet[footholds.free_legs]
-    turned = np.stack(
-        [
-            np.cos(yaw) * nominal[:, 0] - np.sin(yaw) * nominal[:, 1],
-            np.sin(yaw) * nominal[:, 0] + np.cos(yaw) * nominal[:, 1],
-        ],
-        axis=1,
-    )
-    vector[columns.stances[footholds.free]] = _path(model, footholds.free_middles_s) + turned
+    nominal = footholds.nominal_places(model.problem.model.nominal_feet, model.yaw(footholds.free_middles_s))
+    vector[columns.stances[footholds.free]] = waypoints.positions_at(footholds.free_middles_s) + nominal
     even = np.broadcast_to(1.0 / model.grid.node_contacts.sum(axis=1, keepdims=True), columns.shared.shape)
     vector[columns.loads[columns.shared]] = even[columns.shared]
     vector[columns.known] = _known_values(model)
     return vector
-
-
-def _path(model: ReducedModel, times_s: Array) -> Array:
-    """Return the straight lines between waypoints at ``times_s``, (s, 2)."""
-    waypoints = model.problem.waypoints
-    return np.stack([np.interp(times_s, waypoints.times_s, waypoints.poses[:, axis]) for axis in range(2)], axis=1)
 
 
 def _known_values(model: ReducedModel) -> Array:

@@ -22,36 +22,19 @@ def sliding_guess(
 
     The paper begins with the robot standing in its default stance; for long horizons this is closer.
     """
-    knots = _path(problem, grid.knots_s)
+    knots = problem.waypoints.positions_at(grid.knots_s).T
     coefficients = np.zeros((2 * COEFFICIENT_COUNT, grid.count))
     coefficients[0:2] = knots[:, :-1]
     coefficients[2:4] = np.diff(knots, axis=1)
     contacts = vertex_contacts(grid, len(problem.model.foot_vertices))
-    free_yaws = [heading(float(time))[0] for time in footholds.free_middles_s]
+    middles_s = footholds.free_middles_s
+    yaws = np.array([heading(float(time))[0] for time in middles_s])
+    nominal = footholds.nominal_places(problem.model.nominal_feet, yaws)
     return layout.pack(
         {
             "com_coefficients": coefficients,
-            "footholds": _nominal_footholds(problem, footholds, heading),
-            "foot_yaws": np.array(free_yaws)[None, : layout.shapes["foot_yaws"][1]],
+            "footholds": (problem.waypoints.positions_at(middles_s) + nominal).T,
+            "foot_yaws": yaws[None, : layout.shapes["foot_yaws"][1]],
             "loads": (contacts / contacts.sum(axis=1, keepdims=True))[contacts][:, None],
         }
     )
-
-
-def _path(problem: PlanningProblem, times_s: Array) -> Array:
-    """Return the straight lines between waypoints at ``times_s``, (2, s)."""
-    waypoints = problem.waypoints
-    return np.array([np.interp(times_s, waypoints.times_s, waypoints.poses[:, axis]) for axis in range(2)])
-
-
-def _nominal_footholds(problem: PlanningProblem, footholds: FootholdIndex, heading: PiecewisePolynomial) -> Array:
-    """Return the nominal place of each free stance at its middle, (2, M - F)."""
-    yaw = np.array([heading(float(time))[0] for time in footholds.free_middles_s])
-    nominal = problem.model.nominal_feet[footholds.free_legs]
-    turned: Array = np.array(
-        [
-            np.cos(yaw) * nominal[:, 0] - np.sin(yaw) * nominal[:, 1],
-            np.sin(yaw) * nominal[:, 0] + np.cos(yaw) * nominal[:, 1],
-        ]
-    )
-    return _path(problem, footholds.free_middles_s) + turned

@@ -12,7 +12,7 @@ from quadlab.geometry.rotations import Array
 from quadlab.planners.vertex_zmp.config import VertexZmpConfig
 from quadlab.planners.vertex_zmp.paper.iterates import IterateRecorder
 from quadlab.planners.vertex_zmp.paper.transcription import Transcription
-from quadlab.planners.vertex_zmp.solution import Solution
+from quadlab.planners.vertex_zmp.solution import Solution, worst_violation
 
 _CONVERGED = ("Solve_Succeeded", "Solved_To_Acceptable_Level")
 _CLOCK = "Maximum_WallTime_Exceeded"
@@ -103,12 +103,7 @@ def _residuals(transcription: Transcription, x: Array, g: Array) -> dict[str, fl
     begin = 0
     for constraint in transcription.constraints:
         values = g[begin : begin + len(constraint.lower)]
-        residuals[constraint.name] = _worst(np.maximum(constraint.lower - values, values - constraint.upper))
+        residuals[constraint.name] = worst_violation(np.maximum(constraint.lower - values, values - constraint.upper))
         begin += len(values)
-    residuals["load_unilateral"] = _worst(transcription.lower_x - x)
+    residuals["load_unilateral"] = worst_violation(transcription.lower_x - x)
     return residuals
-
-
-def _worst(violations: Array) -> float:
-    """Return the largest violation, at least 0; NaN if there is one."""
-    return float(np.maximum(violations, 0.0).max(initial=0.0))

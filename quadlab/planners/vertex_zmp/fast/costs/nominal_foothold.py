@@ -14,17 +14,9 @@ def nominal_foothold(model: ReducedModel) -> Rows:
     """
     footholds = model.footholds
     intervals, fractions = model.grid.locate(footholds.free_middles_s)
-    nominal = model.problem.model.nominal_feet[footholds.free_legs]
-    yaw = model.yaw(footholds.free_middles_s)
-    turned = np.stack(
-        [
-            np.cos(yaw) * nominal[:, 0] - np.sin(yaw) * nominal[:, 1],
-            np.sin(yaw) * nominal[:, 0] + np.cos(yaw) * nominal[:, 1],
-        ],
-        axis=1,
-    )
+    nominal = footholds.nominal_places(model.problem.model.nominal_feet, model.yaw(footholds.free_middles_s))
     stances = model.columns.stances[footholds.free][:, None, :]
     columns = np.concatenate([model.knot_columns(intervals), stances], axis=1)
     com = -model.spline.weights(intervals, fractions)
     both = on_both_axes(columns, np.concatenate([com, np.ones((len(com), 1))], axis=1))
-    return Rows("nominal_foothold", *both, -turned.ravel())
+    return Rows("nominal_foothold", *both, -nominal.ravel())

@@ -1,13 +1,15 @@
 """Planning of the factorisation K = L D L' from the pattern of K alone."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from quadlab.planners.vertex_zmp.fast.solver.jit import compiled, compiled_entry, source_fingerprint
+from quadlab.jit import source_fingerprint
+from quadlab.planners.vertex_zmp.fast.solver.jit import compiled, compiled_entry
 from quadlab.planners.vertex_zmp.footholds import IntArray
 
 
@@ -119,7 +121,7 @@ def _compile_entry(fingerprint: int) -> Callable[[IntArray, IntArray, IntArray],
     return compiled_entry(entry)
 
 
-_entry = _compile_entry(source_fingerprint())
+_entry = _compile_entry(source_fingerprint(Path(__file__).parent))
 
 
 def plan_elimination(order: IntArray, k_begins: IntArray, k_rows: IntArray) -> Elimination:

@@ -1,14 +1,16 @@
 """A primal-dual interior-point method with Mehrotra's predictor and corrector for bilinear programs."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from quadlab.geometry.rotations import Array
+from quadlab.jit import source_fingerprint
 from quadlab.planners.vertex_zmp.fast.solver.direction import newton_step
 from quadlab.planners.vertex_zmp.fast.solver.evaluation import evaluate, inequality_values
-from quadlab.planners.vertex_zmp.fast.solver.jit import compiled, compiled_entry, source_fingerprint
+from quadlab.planners.vertex_zmp.fast.solver.jit import compiled, compiled_entry
 from quadlab.planners.vertex_zmp.fast.solver.kkt import KktPlan
 from quadlab.planners.vertex_zmp.fast.solver.matrix import Workspace, factorise_kkt
 from quadlab.planners.vertex_zmp.fast.solver.numbers import ProgramArrays
@@ -168,7 +170,7 @@ def _compile_entry(fingerprint: int) -> Callable[[ProgramArrays, KktPlan, Array,
     return compiled_entry(entry)
 
 
-_entry = _compile_entry(source_fingerprint())
+_entry = _compile_entry(source_fingerprint(Path(__file__).parent))
 
 
 def minimise(program: ProgramArrays, plan: KktPlan, pair_products: Array, first: Array, settings: Settings) -> Answer:

@@ -1,8 +1,6 @@
 """Compilation of the solver with numba, typed for the type checker."""
 
-import zlib
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
@@ -20,14 +18,7 @@ def compiled_entry(function: _Function) -> _Function:
     """Decorator: compile a function that Python calls, and keep the machine code on disk.
 
     numba notices a change of the file that holds ``function`` and of its closure variables, but not of the other files
-    whose functions it calls. An entry point therefore has to close over :func:`source_fingerprint`.
+    whose functions it calls. An entry point that calls any therefore has to close over
+    :func:`quadlab.jit.source_fingerprint`.
     """
     return cast(_Function, numba.njit(cache=True, fastmath=_FAST_MATH, error_model="numpy")(function))
-
-
-def source_fingerprint() -> int:
-    """Return a checksum over all Python files of this folder."""
-    checksum = 0
-    for path in sorted(Path(__file__).parent.glob("*.py")):
-        checksum = zlib.crc32(path.read_bytes(), checksum)
-    return checksum
