@@ -17,8 +17,7 @@ SWING_FIRST = "swing above base"
 PAPER_STACK_WHY = (
     "The base stands above the legs in the air. On two feet it is turned about the line between them only by bending "
     "these legs, which the drives hold: its forces are planned for a motion that does not come. The swing legs above "
-    "the base, in a row below, show what that costs. Neither the gains of the drives nor the size of the disturbance are "
-    "printed."
+    "the base, in a row below, show what that costs. Gains of the drives and sizes of disturbances are not printed."
 )
 FEWEST_TRIALS = 5
 """From that many trials on a success of the paper counts as reproduced."""

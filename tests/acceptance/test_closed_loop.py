@@ -75,8 +75,9 @@ def test_trot_over_an_unseen_plank_as_high_as_most_of_a_swing(center_x_m: float,
 @pytest.mark.parametrize("direction", ["[-1,0,0]", "[0,1,0]"])
 def test_trot_with_the_priorities_of_gehring_2017_survives_a_push(direction: str, tmp_path: Path) -> None:
     """The drives hold the legs in the air against what the base, which stands above them, asks of these."""
-    push = ("scenario.pushes.0.force_n=100", f"scenario.pushes.0.direction={direction}", "scenario.pushes.0.start_s=1.8")
-    result = run(tmp_path, "controller=gehring2017", "scenario=push", "duration_s=4", *push)
+    push = ("start_s=1.8", "force_n=100", f"direction={direction}")
+    overrides = (f"scenario.pushes.0.{item}" for item in push)
+    result = run(tmp_path, "controller=gehring2017", "scenario=push", "duration_s=4", *overrides)
     assert result.status is TrialStatus.COMPLETED, result.status_reason
 
 

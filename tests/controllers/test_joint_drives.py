@@ -103,7 +103,7 @@ def test_no_drive_without_gains(robot: RobotModel) -> None:
 
 
 def test_legs_in_the_air_that_the_drives_hold_are_not_bent_for_the_base(robot: RobotModel) -> None:
-    """On two feet the hierarchy turns the base by swinging the other legs; held, these get the torques of q_ddot = 0."""
+    """On two feet the base is turned by swinging the other legs; held, these get the torques of q_ddot = 0."""
     config = preset("gehring2017")
     kinematics, still_base = near_rest(robot, [0, 3])
     reference = replace(still_base, base_angular_acceleration=np.array([5.0, 5.0, 0.0]))
