@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from paper_figures.known_limits import known_limits
 from paper_figures.push_limits import ANYMAL_KG, PUSH_S, limit_claims, speeds_mps
-from paper_figures.trial_claims import PAPER_STACK, PAPER_STACK_WHY, VARIANTS, completed, survival
+from paper_figures.trial_claims import PAPER_STACK, VARIANTS, completed, survival
 from quadlab.analysis.artefact import Artefact, Claim, verdict
 from quadlab.analysis.study_results import StudyResults
 from quadlab.controllers.telemetry import LegMode
@@ -36,6 +36,10 @@ GAP_S = 0.05
 """A contact that is lost for less time goes on."""
 ADAPTS_M = 0.01
 """By so much a reference has to move with the push."""
+PAPER_STACK_FALLS = (
+    "Neither the size of the push nor the gains of the drives are printed. That the base stands above the legs in the "
+    "air matters less on three feet than on two, see a row below; why it falls before our priorities do was not isolated."
+)
 PIECE, NEAR_M = (0.26, 0.62, 0.3, 0.3), np.array([-0.015, 0.015])
 """Where the enlarged piece is drawn, in shares of the axes, and what it shows round the left hind foot."""
 
@@ -200,7 +204,7 @@ def _paper_stack(largest_mps: float, push_mps: float, name: str) -> Claim:
     holds = largest_mps >= push_mps
     ours = f"largest push survived there {largest_mps:.2f} m/s, one search"
     text = f"stays up {name} {VARIANTS[PAPER_STACK]}, ekf"
-    return Claim(text, "recovers; size not printed", ours, verdict(holds=holds), "" if holds else PAPER_STACK_WHY)
+    return Claim(text, "recovers; size not printed", ours, verdict(holds=holds), "" if holds else PAPER_STACK_FALLS)
 
 
 def _without_alignment(largest_mps: float, aligned_mps: float, push_mps: float, name: str) -> Claim:
