@@ -73,3 +73,10 @@ class RobotConfig(StrictModel):
         if set(by_leg) != set(LEGS):
             raise ValueError(f"expected the legs {', '.join(LEGS)}; got {', '.join(by_leg)}")
         return by_leg
+
+    @field_validator("legs")
+    @classmethod
+    def _legs_differ(cls, legs: dict[str, str]) -> dict[str, str]:
+        if len(set(legs.values())) < len(legs):
+            raise ValueError(f"expected a name of its own for each leg; got {', '.join(legs.values())}")
+        return legs
