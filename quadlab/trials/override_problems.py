@@ -43,6 +43,8 @@ def composition_problem(error: Exception) -> str:
             problem = f"{str(error.filename)[:_LONGEST_PATH]}: {error.strerror}"
         case _ if isinstance(error.__cause__, OmegaConfBaseException):
             problem = _unknown_key(error.__cause__) or f"{_first_line(error)}: {_first_line(error.__cause__)}"
+        case _ if _first_line(error).startswith("Could not override 'study'"):
+            problem = "study: no part of a trial; it is run by python experiments/run_study.py <name>"
         case _ if several := _SEVERAL_VALUES.match(_first_line(error)):
             problem = _several_values(several[1] or several[2])
         case _:

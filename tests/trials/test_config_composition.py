@@ -92,6 +92,7 @@ def test_run_options_are_no_part_of_the_trial() -> None:
         ("~controller.levels.3.tasks.0.task", "controller.levels[3].tasks[0].task: missing"),
         ("~gait.cycles.0.pattern.LH", "gait.cycles[0].pattern: needs one row for each of LF, RF, LH, RH; has LF, "),
         (f"~{'x' * 300}", "/"),
+        ("study=comparison", "study: no part of a trial; it is run by python experiments/run_study.py"),
         ("robot.legs.LH=LF", "robot.legs: expected a name of its own for each leg; got LF, RF, LF, RH"),
         ("robot.urdf=anymal_c/anymal.urdf", "robot anymal_b: no URDF 'anymal_c/anymal.urdf'; of "),
         ("=3", "Config group override must be a string"),
