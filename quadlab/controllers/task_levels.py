@@ -1,10 +1,11 @@
 """Priorities as data: levels of named tasks in a controller's YAML."""
 
+from functools import cache
 from typing import Annotated, Any
 
-from pydantic import PlainSerializer, PlainValidator, field_validator
+from pydantic import PlainSerializer, PlainValidator, TypeAdapter, field_validator
 
-from quadlab.configuration import StrictModel, registered
+from quadlab.configuration import PartOf, StrictModel, registered
 from quadlab.controllers.limits import (
     friction_cone,
     height_over_footprint,
@@ -47,21 +48,21 @@ _TASK_MODULES = (
 
 
 def _validate(value: Any) -> StrictModel:
-    if isinstance(value, StrictModel):
-        return value
-    name = value.get("task") if isinstance(value, dict) else None
-    known = registered("task")
-    if not isinstance(name, str) or name not in known:
-        raise ValueError(f"unknown task {name!r}; known: {', '.join(sorted(known))}")
-    config: StrictModel = known[name].Config.model_validate(value)  # type: ignore[attr-defined]
-    return config
+    return _union(tuple(registered("task").values())).validate_python(value)
+
+
+@cache
+def _union(_tasks: tuple[type, ...]) -> TypeAdapter[StrictModel]:
+    """Return what tells the configurations of the tasks registered now apart; one may be registered at any time."""
+    return TypeAdapter(Annotated[StrictModel, _TASK])
 
 
 def _dump(config: StrictModel) -> dict[str, Any]:
     return config.model_dump(exclude_defaults=True)
 
 
-TaskConfig = Annotated[StrictModel, PlainValidator(_validate), PlainSerializer(_dump, return_type=dict)]
+_TASK = PartOf("task", key="task")
+TaskConfig = Annotated[StrictModel, _TASK, PlainValidator(_validate), PlainSerializer(_dump, return_type=dict)]
 """The configuration of any registered task, chosen by its key ``task``.
 
 Options that have their default are not written: a new option of a task leaves the identity of trials as it is that know
