@@ -5,7 +5,7 @@ Each is a module ``paper_figures/<paper>/<artefact>.py`` with
 - ``ARTEFACT``: what it is and from which studies it is drawn,
 - ``draw(results)``: the figure,
 - ``numbers(results)``: what is drawn, as a table,
-- ``claims(results)``: what the paper says, beside what was measured.
+- ``claims(results)``: what the paper says, beside what was measured; empty for a figure that claims nothing.
 """
 
 import importlib
@@ -35,7 +35,7 @@ PAPERS = {
     "bellicoso2016": "Bellicoso 2016",
     "comparison": "A comparison that no paper has",
 }
-"""Title of each folder, in the order of all overviews."""
+"""Title of each folder, in the order of all overviews; a new folder gets one here."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def artefact_scripts(names: Sequence[str]) -> list[ArtefactScript]:
     """Return all scripts whose ``<paper>.<module>`` contains one of ``names``, or all if none are given.
 
     Raises:
-        ConfigurationError: if no script has such a name.
+        ConfigurationError: if no script has such a name, or its folder no title.
     """
     found = []
     for module in pkgutil.walk_packages(paper_figures.__path__, "paper_figures."):
@@ -76,6 +76,9 @@ def artefact_scripts(names: Sequence[str]) -> list[ArtefactScript]:
             found.append(ArtefactScript(paper, rest[0], script.ARTEFACT, script.draw, script.numbers, script.claims))
     if not found:
         raise ConfigurationError(f"artefact: unknown '{' '.join(names)}'; expected a part of <paper>.<script>")
+    untitled = sorted({script.paper for script in found} - PAPERS.keys())
+    if untitled:
+        raise ConfigurationError(f"paper_figures/{untitled[0]}: no title; expected one in PAPERS of gallery.py")
     return sorted(found, key=lambda script: list(PAPERS).index(script.paper))
 
 

@@ -16,7 +16,7 @@ def readme_table(judged: Sequence[Judged]) -> str:
     for entry in judged:
         script, artefact = entry.script, entry.script.artefact
         source = (
-            f"[{artefact.source}](paper_figures/{script.paper}/{script.name}.png)" if entry.claims else artefact.source
+            artefact.source if entry.problem else f"[{artefact.source}](paper_figures/{script.paper}/{script.name}.png)"
         )
         lines.append(f"| {source} | {artefact.title} | `{script.command}` | {entry.verdict} |")
     return "\n".join(lines)

@@ -52,7 +52,7 @@ def tally(entry: Judged) -> str:
 def picture(entry: Judged, figures: Path) -> str | None:
     """Return the figure as a data address, or None if it was not drawn."""
     path = figures / entry.script.paper / f"{entry.script.name}.png"
-    if not entry.claims or not path.is_file():
+    if entry.problem or not path.is_file():
         return None
     return f"data:image/png;base64,{base64.b64encode(path.read_bytes()).decode()}"
 

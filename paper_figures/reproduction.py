@@ -3,10 +3,10 @@
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field, ValidationError, field_validator
 
+from paper_figures.gallery import PAPERS as TITLES
 from paper_figures.gallery import ArtefactScript, artefact_scripts, draw_artefact, is_drawn
 from paper_figures.readme_table import write_readme
 from paper_figures.report_page import write_page
@@ -25,7 +25,7 @@ PAPERS = ("gehring2017", "winkler2017", "bellicoso2016")
 FOLDER = Path(__file__).parent
 USAGE = """usage: python experiments/reproduce.py [paper=all] [artefact=...] [jobs=...]
 
-  paper     gehring2017, winkler2017, bellicoso2016, all of them, or comparison
+  paper     gehring2017, winkler2017, bellicoso2016, all of them, or another folder such as comparison
   artefact  part of the name of a script in paper_figures/<paper>/; all of the paper if it is left out
   jobs      processes at a time; one a core if it is left out
 """
@@ -35,14 +35,21 @@ class ReproduceOptions(StrictModel):
     """What to reproduce.
 
     Attributes:
-        paper: one of them, all three, or the comparison that no paper has.
+        paper: one of them, all three, or another folder that has a title.
         artefact: part of the name of a script; empty for all of the paper.
         jobs: processes at a time.
     """
 
-    paper: Literal["all", "gehring2017", "winkler2017", "bellicoso2016", "comparison"] = "all"
+    paper: str = "all"
     artefact: str = ""
     jobs: int = Field(default_factory=usable_cores, ge=1)
+
+    @field_validator("paper")
+    @classmethod
+    def _is_known(cls, paper: str) -> str:
+        if paper not in ("all", *TITLES):
+            raise ValueError(f"unknown; {suggestion(paper, ('all', *TITLES))}")
+        return paper
 
 
 def main(arguments: Sequence[str]) -> int:

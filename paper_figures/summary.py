@@ -17,12 +17,12 @@ MISSING = "no results yet"
 
 @dataclass(frozen=True)
 class Judged:
-    """An artefact with its claims; none if its results are missing.
+    """An artefact with its claims.
 
     Attributes:
         script: of the artefact.
         claims: measured.
-        problem: why there are none.
+        problem: why there are none; empty if its results are there.
     """
 
     script: ArtefactScript
@@ -32,7 +32,7 @@ class Judged:
     @property
     def verdict(self) -> str:
         """On all claims together."""
-        return overall(self.claims).value if self.claims else MISSING
+        return MISSING if self.problem else overall(self.claims).value
 
 
 def judge(scripts: Sequence[ArtefactScript], results: StudyResults) -> list[Judged]:

@@ -4,9 +4,11 @@ Values live in YAML, types and ranges in a model beside the class that uses them
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Annotated, Any, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
+from pydantic_core import CoreSchema, core_schema
 
 from quadlab.errors import ConfigurationError
 
@@ -63,3 +65,27 @@ def part_of(group: str, config: Any) -> type:
     if config.kind not in known:
         raise ConfigurationError(f"{group}.kind: unknown '{config.kind}'; known: {', '.join(sorted(known))}")
     return known[config.kind]
+
+
+@dataclass(frozen=True)
+class PartOf:
+    """Annotation of a field that holds the ``Config`` of any part registered under ``group``.
+
+    The parts must be registered (their modules imported) before the model with this field is defined.
+
+    Attributes:
+        group: of the parts.
+        key: of the YAML that names the part.
+    """
+
+    group: str
+    key: str = "kind"
+
+    def models(self) -> dict[str, Any]:
+        """Return the configuration models of the group, by kind."""
+        return {kind: part.Config for kind, part in registered(self.group).items()}  # type: ignore[attr-defined]
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Return the union of the registered models, told apart by their ``key``."""
+        choices = {kind: handler.generate_schema(model) for kind, model in self.models().items()}
+        return core_schema.tagged_union_schema(choices, discriminator=self.key)

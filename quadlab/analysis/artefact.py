@@ -55,7 +55,7 @@ class Artefact:
 
 def overall(claims: Sequence[Claim]) -> Verdict:
     """Return the verdict on all claims of an artefact together; those of which no paper speaks do not count."""
-    verdicts = {claim.verdict for claim in claims}
+    verdicts = {claim.verdict for claim in claims} or {Verdict.NEW}
     if len(verdicts) > 1:
         verdicts.discard(Verdict.NEW)
     return verdicts.pop() if len(verdicts) == 1 else Verdict.PARTLY

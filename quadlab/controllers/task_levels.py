@@ -1,10 +1,11 @@
 """Priorities as data: levels of named tasks in a controller's YAML."""
 
+from functools import cache
 from typing import Annotated, Any
 
-from pydantic import PlainSerializer, PlainValidator, field_validator
+from pydantic import PlainSerializer, PlainValidator, TypeAdapter, field_validator
 
-from quadlab.configuration import StrictModel, registered, without_defaults
+from quadlab.configuration import PartOf, StrictModel, registered, without_defaults
 from quadlab.controllers.limits import (
     friction_cone,
     height_over_footprint,
@@ -47,17 +48,18 @@ _TASK_MODULES = (
 
 
 def _validate(value: Any) -> StrictModel:
-    if isinstance(value, StrictModel):
-        return value
-    name = value.get("task") if isinstance(value, dict) else None
-    known = registered("task")
-    if not isinstance(name, str) or name not in known:
-        raise ValueError(f"unknown task {name!r}; known: {', '.join(sorted(known))}")
-    config: StrictModel = known[name].Config.model_validate(value)  # type: ignore[attr-defined]
-    return config
+    return _union(tuple(registered("task").values())).validate_python(value)
 
 
-TaskConfig = Annotated[StrictModel, PlainValidator(_validate), PlainSerializer(without_defaults, return_type=dict)]
+@cache
+def _union(_tasks: tuple[type, ...]) -> TypeAdapter[StrictModel]:
+    """Return what tells the configurations of the tasks registered now apart; one may be registered at any time."""
+    return TypeAdapter(Annotated[StrictModel, _TASK])
+
+
+TaskConfig = Annotated[
+    StrictModel, _TASK, PlainValidator(_validate), PlainSerializer(without_defaults, return_type=dict)
+]
 """The configuration of any registered task, chosen by its key ``task``."""
 
 

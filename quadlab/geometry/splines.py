@@ -24,7 +24,7 @@ class PiecewisePolynomial(CurvePieces):
 
     @cached_property
     def _derivatives(self) -> list[Array]:
-        tables = [self.coefficients]
+        tables = [np.ascontiguousarray(self.coefficients, dtype=np.float64)]  # compiled code takes tables of one layout
         for _ in range(3):
             last = tables[-1]
             powers = np.arange(1, last.shape[1])[None, :, None]

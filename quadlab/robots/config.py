@@ -74,6 +74,13 @@ class RobotConfig(StrictModel):
             raise ValueError(f"expected the legs {', '.join(LEGS)}; got {', '.join(by_leg)}")
         return by_leg
 
+    @field_validator("legs")
+    @classmethod
+    def _legs_differ(cls, legs: dict[str, str]) -> dict[str, str]:
+        if len(set(legs.values())) < len(legs):
+            raise ValueError(f"expected a name of its own for each leg; got {', '.join(legs.values())}")
+        return legs
+
 
 def joint_names_in_urdf(config: RobotConfig) -> tuple[str, ...]:
     """Return what the URDF calls the joints, in the order ``JOINT_NAMES``, (12,)."""

@@ -5,12 +5,13 @@ from functools import cached_property
 import numpy as np
 import pinocchio as pin
 
+from quadlab.errors import RobotDescriptionError
 from quadlab.geometry.rotations import Array
 from quadlab.robots.config import RobotConfig
 from quadlab.robots.description import load_urdf_text
 from quadlab.robots.kinematics import Kinematics, MotionPoints
 from quadlab.robots.kinematics_solver import KinematicsSolver
-from quadlab.robots.legs import JOINT_COUNT, LEG_COUNT, LEGS
+from quadlab.robots.legs import JOINT_COUNT, JOINT_NAMES, LEG_COUNT, LEGS
 from quadlab.robots.pinocchio_model import build_pinocchio_model
 from quadlab.robots.state import RobotState
 
@@ -19,7 +20,8 @@ def load_robot(config: RobotConfig) -> "RobotModel":
     """Load the robot that ``config`` describes.
 
     Raises:
-        RobotDescriptionError: if the description is missing or does not have the named parts.
+        RobotDescriptionError: if the description is missing, does not have the named parts, or its joints do not reach
+            the nominal stance.
     """
     return RobotModel(config)
 
@@ -69,8 +71,19 @@ class RobotModel:
         )
         self.joint_damping: Array = model.damping[velocities].copy()
         self.nominal_joint_positions: Array = np.concatenate([self.config.nominal_joints_rad[leg] for leg in LEGS])
+        self._check_nominal_joints()
         self.foot_radius = self.config.foot_radius_m
         self.reach: Array = np.array(self.config.reach_m)
+
+    def _check_nominal_joints(self) -> None:
+        for name, angle, (lower, upper) in zip(
+            JOINT_NAMES, self.nominal_joint_positions, self.joint_position_limits, strict=True
+        ):
+            if not lower <= angle <= upper:
+                raise RobotDescriptionError(
+                    f"robot {self.name}: nominal_joints_rad: {name} at {angle:g} rad is outside its range of "
+                    f"{lower:g} to {upper:g} rad"
+                )
 
     @cached_property
     def _nominal_kinematics(self) -> Kinematics:

@@ -7,7 +7,7 @@ from typing import Annotated, Protocol, Self
 import yaml
 from pydantic import Field, StringConstraints, model_validator
 
-from quadlab.configuration import Positive, StrictModel
+from quadlab.configuration import PartOf, Positive, StrictModel
 from quadlab.controllers import hierarchical as _hierarchical  # noqa: F401
 from quadlab.controllers import projected_inverse_dynamics as _projected_inverse_dynamics  # noqa: F401
 from quadlab.controllers import weighted as _weighted  # noqa: F401
@@ -26,7 +26,6 @@ from quadlab.simulation.scenario import ScenarioConfig
 from quadlab.simulation.simulator import SimulationConfig
 from quadlab.simulation.timing import check_period
 from quadlab.trials.failure import FailureConfig
-from quadlab.trials.parts import PartOf
 from quadlab.trials.problems import suggestion
 from quadlab.trials.recording.config import LogConfig
 from quadlab.trials.replanning import ReplanningConfig

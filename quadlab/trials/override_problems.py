@@ -14,8 +14,8 @@ COMPOSITION_ERRORS = (HydraException, OmegaConfBaseException, yaml.YAMLError)
 """What Hydra raises for wrong overrides and wrong files."""
 
 UNTYPED_COMPOSITION_ERRORS = (ValueError, TypeError, AssertionError, OSError)
-"""What it raises for an override without a name, for a word where the number of a list entry belongs, and for a name
-that is longer than a file's may be."""
+"""What it raises for an override without a name, for a word where the number of a list entry belongs, for an entry of a
+list that shall be removed, and for a name that is longer than a file's may be."""
 
 _LONGEST_PATH = 300
 _SEVERAL_VALUES = re.compile(r"Ambiguous value for argument '(.+)'$|Sweep parameters '(.+)' requires --multirun")
@@ -37,10 +37,14 @@ def composition_problem(error: Exception) -> str:
             problem = f"{error.problem_mark.name}, line {error.problem_mark.line + 1}: {error.problem}"
         case AssertionError():
             problem = "an override has no key; expected key=value, +key=value or ~key"
+        case TypeError() if str(error).startswith("list indices"):
+            problem = "~ takes no entry out of a list; override the whole list, or leave the entry out in a file"
         case OSError():
             problem = f"{str(error.filename)[:_LONGEST_PATH]}: {error.strerror}"
         case _ if isinstance(error.__cause__, OmegaConfBaseException):
             problem = _unknown_key(error.__cause__) or f"{_first_line(error)}: {_first_line(error.__cause__)}"
+        case _ if _first_line(error).startswith("Could not override 'study'"):
+            problem = "study: no part of a trial; it is run by python experiments/run_study.py <name>"
         case _ if several := _SEVERAL_VALUES.match(_first_line(error)):
             problem = _several_values(several[1] or several[2])
         case _:

@@ -6,7 +6,7 @@ from typing import Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
-from quadlab.trials.parts import PartOf
+from quadlab.configuration import PartOf
 
 _SHOWN = 25
 """That many names are still read; the robots, gaits and studies of quadlab are fewer."""
@@ -29,7 +29,16 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
 
 def validation_problems(model: type[BaseModel], error: ValidationError) -> list[str]:
     """Return one line for each mistake that ``model`` found: key, what is wrong, what was given, what exists."""
-    return [_problem(model, details) for details in error.errors(include_url=False)]
+    found = error.errors(include_url=False)
+    return [_problem(model, details) for details in found if not _follows_from_others(details, found)]
+
+
+def _follows_from_others(details: Mapping[str, Any], found: Iterable[Mapping[str, Any]]) -> bool:
+    """Whether a list is said to be too short since pydantic leaves out the entries with mistakes of their own."""
+    place = details["loc"]
+    return details["type"] == "too_short" and any(
+        len(other["loc"]) > len(place) and other["loc"][: len(place)] == place for other in found
+    )
 
 
 def _problem(model: type[BaseModel], details: Mapping[str, Any]) -> str:
@@ -41,14 +50,19 @@ def _problem(model: type[BaseModel], details: Mapping[str, Any]) -> str:
         case "missing":
             return f"{path}: missing"
         case "union_tag_invalid":
-            kinds = [kind.strip(" '") for kind in details["ctx"]["expected_tags"].split(",")]
-            return f"{path}.kind: unknown '{details['ctx']['tag']}'; {suggestion(details['ctx']['tag'], kinds)}"
+            key, kinds = _key(details), [kind.strip(" '") for kind in details["ctx"]["expected_tags"].split(",")]
+            return f"{path}.{key}: unknown '{details['ctx']['tag']}'; {suggestion(details['ctx']['tag'], kinds)}"
         case "union_tag_not_found":
-            return f"{path}.kind: missing"
+            return f"{path}.{_key(details)}: missing"
     message = details["msg"].removeprefix("Value error, ")
     text = "" if isinstance(given, dict | BaseModel) else repr(given)
     shown = f" (got {text})" if text and len(text) <= _LONGEST else ""
     return f"{path}: {message[0].lower()}{message[1:]}{shown}"
+
+
+def _key(details: Mapping[str, Any]) -> str:
+    """Return the key by which the members of a union are told apart."""
+    return str(details["ctx"]["discriminator"]).strip("'")
 
 
 def _follow(model: type[BaseModel], location: tuple[int | str, ...]) -> tuple[str, Any]:
@@ -74,7 +88,7 @@ def _keys(kind: Any) -> Iterable[str]:
 def _child(parent: Any, step: int | str) -> Any:
     """Return the type below ``parent``, or None where types end."""
     if field := _fields(parent).get(str(step)):
-        return next((note for note in field.metadata if isinstance(note, PartOf)), _bare(field.annotation))
+        return _part(field.metadata) or _bare(field.annotation)
     if get_origin(parent) in (tuple, list):
         return _bare(get_args(parent)[0])
     if get_origin(parent) is dict:
@@ -83,11 +97,15 @@ def _child(parent: Any, step: int | str) -> Any:
 
 
 def _bare(annotation: Any) -> Any:
-    """Return the annotation without Annotated and without ``| None``."""
+    """Return the annotation without Annotated and without ``| None``; of one that holds parts, their ``PartOf``."""
     if hasattr(annotation, "__metadata__"):
-        return _bare(annotation.__origin__)
+        return _part(annotation.__metadata__) or _bare(annotation.__origin__)
     members = [member for member in _members(annotation) if member is not type(None)]
     return _bare(members[0]) if len(members) == 1 else annotation
+
+
+def _part(notes: Iterable[Any]) -> PartOf | None:
+    return next((note for note in notes if isinstance(note, PartOf)), None)
 
 
 def _members(annotation: Any) -> tuple[Any, ...]:

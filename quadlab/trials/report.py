@@ -13,6 +13,7 @@ _KEY_NUMBERS = (
     ("largest torque", "torque_max_nm", "{:.1f} N m"),
     ("cost of transport", "cost_of_transport", "{:.2f}"),
     ("planning build / solve", ("planning_build_ms", "planning_solve_ms"), "{:.0f} / {:.0f} ms"),
+    ("replannings / failed", ("replannings", "replanning_failures"), "{:d} / {:d}"),
     ("control tick median / p99", ("control_tick_median_us", "control_tick_p99_us"), "{:.0f} / {:.0f} us"),
     ("control fallbacks", "control_fallbacks", "{:d}"),
     ("real-time factor", "real_time_factor", "{:.2f}"),

@@ -7,6 +7,7 @@ import numpy as np
 from controller_cases import disturbed_state, reference_at
 
 from quadlab.configuration import part_of
+from quadlab.controllers.level_solver import LevelledControllerConfig
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.resolver import Resolution, Resolver
 from quadlab.geometry.rotations import Array
@@ -16,7 +17,6 @@ from quadlab.robots.model import RobotModel
 from quadlab.trials.compose import compose_trial
 
 PRESETS = tuple(sorted(path.stem for path in (CONF_DIR / "controller").glob("*.yaml")))
-LEVELLED = tuple(name for name in PRESETS if name != "projected_inverse_dynamics")
 FREE_HEIGHT = "bellicoso2016_manipulability"
 """The one whose base goes up or down by itself instead of staying where it is."""
 
@@ -25,6 +25,9 @@ FREE_HEIGHT = "bellicoso2016_manipulability"
 def preset(name: str, *overrides: str) -> Any:
     """The composed configuration of a controller, e.g. ``preset("weighted", "weights.forces=1.0e-6")``."""
     return compose_trial([f"controller={name}", *(f"controller.{override}" for override in overrides)]).controller
+
+
+LEVELLED = tuple(name for name in PRESETS if isinstance(preset(name), LevelledControllerConfig))
 
 
 def resolver_of(config: Any) -> Resolver:

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -17,6 +17,7 @@ from controller_cases import (
 )
 from pydantic import ValidationError
 
+from quadlab.configuration import _REGISTRY, StrictModel
 from quadlab.controllers.hierarchical import HierarchicalResolver
 from quadlab.controllers.reference import ControlReference
 from quadlab.controllers.resolver import Resolution
@@ -104,8 +105,18 @@ def test_every_task_of_the_shipped_levels_can_be_built() -> None:
 
 @pytest.mark.parametrize("name", ["dance", {"kind": "x"}, ["com_position"], 3])
 def test_unknown_task_is_named_with_the_known_ones(name: object) -> None:
-    with pytest.raises(ValidationError, match=r"unknown task .*; known: .*com_position.*torque_limits"):
+    with pytest.raises(ValidationError, match=r"Input tag .* using 'task' .*'com_position'"):
         LevelConfig.model_validate({"name": "fun", "tasks": [{"task": name}]})
+
+
+def test_a_task_may_be_registered_at_any_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Dance:
+        class Config(StrictModel):
+            task: Literal["dance"]
+
+    monkeypatch.setitem(_REGISTRY["task"], "dance", Dance)
+    (task,) = LevelConfig.model_validate({"name": "fun", "tasks": [{"task": "dance"}]}).tasks
+    assert isinstance(task, Dance.Config)
 
 
 def test_level_names_must_differ() -> None:

@@ -39,6 +39,13 @@ def test_knot_belongs_to_the_later_piece_and_the_end_to_the_last() -> None:
     assert polynomial.dimension == 2
 
 
+@pytest.mark.parametrize("time", [0.5, 1.2, 3.0])
+def test_coefficients_may_be_a_view_of_others(time: float) -> None:
+    polynomial = curve()
+    view = PiecewisePolynomial(polynomial.knots, polynomial.coefficients[:, :, :1])
+    np.testing.assert_array_equal(view.motion(time), polynomial.motion(time)[:, :1])
+
+
 @pytest.mark.parametrize(("outside", "end"), [(-2.0, 1.0), (0.999, 1.0), (3.001, 3.0), (9.0, 3.0)])
 def test_curve_rests_at_its_ends_outside_its_span(outside: float, end: float) -> None:
     polynomial = curve()

@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -69,6 +70,15 @@ def test_claims_stand_on_the_page_and_the_figure_in_it(results: StudyResults) ->
 def test_page_is_the_same_every_time(results: StudyResults) -> None:
     draw_artefact(_script(), results, results.folder.parent)
     assert _page(_script(), results) == _page(_script(), results)
+
+
+def test_figure_that_claims_nothing_is_new_and_not_missing(results: StudyResults) -> None:
+    script = replace(_script(), claims=lambda _: [])
+    draw_artefact(script, results, results.folder.parent)
+    (entry,) = judge([script], results)
+    assert entry.verdict == Verdict.NEW
+    assert "<img" in _page(script, results)
+    assert "paper_figures/gehring2017/figure6.png" in with_table(f"{BEGIN}{END}", [entry])
 
 
 def test_every_line_of_the_summary_leads_to_its_section(results: StudyResults) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from paper_figures.gallery import PAPERS as TITLES
 from paper_figures.gallery import ArtefactScript, artefact_scripts, is_drawn
 from paper_figures.reproduction import PAPERS, ReproduceOptions, chosen_scripts, main, read_options
 from quadlab.analysis.study_results import StudyResults
@@ -51,6 +52,17 @@ def test_artefact_is_chosen_by_a_part_of_its_name() -> None:
     assert names == ["figure6_trot_plank"]
     with pytest.raises(ConfigurationError, match="artefact: unknown 'figure66'"):
         chosen_scripts(ReproduceOptions(artefact="figure66"))
+
+
+def test_folder_without_a_title_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delitem(TITLES, "comparison")
+    with pytest.raises(ConfigurationError, match="paper_figures/comparison: no title"):
+        artefact_scripts([])
+
+
+def test_every_folder_with_a_title_can_be_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(TITLES, "thesis", "Figures of a thesis")
+    assert [read_options([f"paper={folder}"]).paper for folder in TITLES] == list(TITLES)
 
 
 @pytest.fixture

@@ -57,7 +57,7 @@ def test_overrides_replace_values_of_the_urdf() -> None:
         mass_kg={"trunk": 10.0},
         effort_nm={"l._.*": 7.0},
         velocity_radps={".*": 3.0},
-        position_rad={".*_hfe_.*": (-0.5, 0.6)},
+        position_rad={".*_hfe_.*": (-0.8, 0.9)},
         damping_nms={".*": 0.25},
     )
     base = robot_config("hyq")
@@ -65,7 +65,7 @@ def test_overrides_replace_values_of_the_urdf() -> None:
     assert robot.mass == pytest.approx(original.mass - 54.186 + 10.0)
     assert robot.torque_limits.tolist() == [7.0, 7.0, 7.0, 150.0, 150.0, 150.0] * 2
     assert np.all(robot.joint_velocity_limits == 3.0)
-    assert np.all(robot.joint_position_limits[1::3] == [-0.5, 0.6])
+    assert np.all(robot.joint_position_limits[1::3] == [-0.8, 0.9])
     assert np.all(robot.joint_damping == 0.25)
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from quadlab.errors import RobotDescriptionError
 from quadlab.robots.catalogue import robot_config, robot_names
 from quadlab.robots.model import RobotModel, load_robot
 
@@ -47,6 +48,14 @@ def test_nominal_stance_is_level_and_within_limits(robot: RobotModel) -> None:
     assert np.all(robot.nominal_joint_positions < upper)
     assert robot.nominal_com_height == pytest.approx(kinematics.com_position[2])
     np.testing.assert_allclose(robot.nominal_feet_in_com[:, 1].sum(), 0.0, atol=0.1)
+
+
+def test_nominal_angle_that_its_joint_does_not_reach_is_refused() -> None:
+    """As degrees in the place of radians mostly are."""
+    config = robot_config("anymal_b")
+    degrees = dict.fromkeys(config.legs, (0.0, 23.0, -46.0))
+    with pytest.raises(RobotDescriptionError, match="nominal_joints_rad: LF_HFE at 23 rad is outside its range of -"):
+        load_robot(config.model_copy(update={"nominal_joints_rad": degrees}))
 
 
 def test_centre_of_mass_is_above_the_feet(robot: RobotModel) -> None:

@@ -80,6 +80,13 @@ def test_finished_trial_is_skipped_unless_forced(tmp_path: Path, ran: list[int])
     assert ran == [0, 0]
 
 
+def test_plans_that_were_not_found_on_the_way_are_told() -> None:
+    result = _result_of(compose_trial())
+    assert "replannings" not in job_report(JobOutcome(Path(), result))
+    replanned = result.model_copy(update={"replannings": 17, "replanning_failures": 16})
+    assert "replannings / failed:      17 / 16\n" in job_report(JobOutcome(Path(), replanned))
+
+
 def test_exception_becomes_error_json_and_the_next_run_tries_again(
     tmp_path: Path, ran: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
