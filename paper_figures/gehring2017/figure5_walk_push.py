@@ -38,7 +38,7 @@ ADAPTS_M = 0.01
 """By so much a reference has to move with the push."""
 PAPER_STACK_FALLS = (
     "Neither the size of the push nor the gains of the drives are printed. That the base stands above the legs in the "
-    "air matters less on three feet than on two, see a row below. Why it falls before our priorities do is not isolated."
+    "air matters less on three feet than on two, see a row below. Why it falls before our priorities is not isolated."
 )
 PIECE, NEAR_M = (0.26, 0.62, 0.3, 0.3), np.array([-0.015, 0.015])
 """Where the enlarged piece is drawn, in shares of the axes, and what it shows round the left hind foot."""

@@ -57,6 +57,7 @@ def _union(_tasks: tuple[type, ...]) -> TypeAdapter[StrictModel]:
     return TypeAdapter(Annotated[StrictModel, _TASK])
 
 
+_TASK = PartOf("task", key="task")
 TaskConfig = Annotated[
     StrictModel, _TASK, PlainValidator(_validate), PlainSerializer(without_defaults, return_type=dict)
 ]
