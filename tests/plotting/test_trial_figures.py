@@ -122,13 +122,10 @@ def test_curves_have_the_units_and_the_legs_that_their_axes_name(view: TrialView
         for leg in LEGS:
             np.testing.assert_array_equal(torques[leg], state[f"joint_torque_{leg}_{name}"])
         np.testing.assert_array_equal(torques["limit"], limit)
-    for leg, name in enumerate(LEGS):
-        np.testing.assert_array_equal(
-            drawn_lines(draw_normal_force, view, leg)["desired"], control[f"contact_force_desired_{name}_z"]
-        )
-        np.testing.assert_array_equal(
-            drawn_lines(draw_foot_height, view, leg)["measured"], control[f"foot_position_{name}_z"]
-        )
+    for number, leg in enumerate(LEGS):
+        forces, heights = (drawn_lines(draw, view, number) for draw in (draw_normal_force, draw_foot_height))
+        np.testing.assert_array_equal(forces["desired"], control[f"contact_force_desired_{leg}_z"])
+        np.testing.assert_array_equal(heights["measured"], control[f"foot_position_{leg}_z"])
 
 
 def test_figures_go_where_they_are_wanted(directory: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

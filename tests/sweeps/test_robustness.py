@@ -23,6 +23,7 @@ from quadlab.trials.lock import is_running, running
 from quadlab.trials.main import main
 from quadlab.trials.progress import SilentProgress
 from quadlab.trials.result import RESULT_FILE, TrialResult
+from quadlab.trials.runner import run_trial
 
 SCRIPT = Path(__file__).parents[2] / "experiments" / "sweep_robustness.py"
 
@@ -71,15 +72,14 @@ def test_results_that_cannot_be_written_fail_every_trial_and_not_the_sweep(tmp_p
 
 
 def _slow_trial(folder: str, began: str) -> None:
-    run_trial = job_module.run_trial
-
     def slowly(*arguments: Any) -> TrialResult:
         Path(began).touch()
         time.sleep(1.0)
         return run_trial(*arguments)
 
-    job_module.run_trial = slowly
-    assert run_job(standing(1)[0].config, _options(Path(folder)), SilentProgress()).result is not None
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(job_module, "run_trial", slowly)
+        assert run_job(standing(1)[0].config, _options(Path(folder)), SilentProgress()).result is not None
 
 
 def test_second_process_waits_for_a_trial_that_runs_and_takes_its_result(tmp_path: Path) -> None:
