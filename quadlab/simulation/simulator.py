@@ -1,6 +1,7 @@
 """MuJoCo behind quadlab's types: joint torques in, robot states out."""
 
 import math
+import warnings
 from typing import Any
 
 import mujoco
@@ -24,6 +25,18 @@ from quadlab.simulation.timing import check_period
 
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 _ALLOWED_PENETRATION = 1e-3  # [m]
+
+
+def _say(warning: str) -> None:
+    """Say what MuJoCo warns of; else it writes a log file where the command is run.
+
+    That the numbers blow up is left to the outcome of the trial.
+    """
+    if "unstable" not in warning:
+        warnings.warn(warning, RuntimeWarning, stacklevel=1)
+
+
+mujoco.set_mju_user_warning(_say)
 
 
 class SimulationConfig(StrictModel):

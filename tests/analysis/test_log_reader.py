@@ -8,6 +8,7 @@ import pytest
 from mcap.reader import make_reader
 from mcap.writer import Writer
 from mcap_protobuf.decoder import DecoderFactory
+from scipy.spatial.transform import Rotation
 from synthetic_records import (
     ATTACHMENTS,
     CONTROL_PERIOD,
@@ -60,6 +61,10 @@ def test_control_comes_back_in_single_precision(log: TrialLog) -> None:
         row = log.control.iloc[[index]]
         single = np.float32
         np.testing.assert_array_equal(vectors(row, "com")[0], telemetry.com_position.astype(single))
+        error = telemetry.com_position - telemetry.com_position_reference
+        np.testing.assert_array_equal(vectors(row, "com_error")[0], error.astype(single))
+        attitude = Rotation.from_quat(tick_record(index).state.quat_wxyz, scalar_first=True).as_euler("xyz")
+        np.testing.assert_allclose(vectors(row, "base")[0], attitude, atol=1e-6)
         np.testing.assert_array_equal(vectors(row, "plan_pose")[0], telemetry.plan_pose_in_world.astype(single))
         references = telemetry.foot_position_references.astype(single)
         np.testing.assert_array_equal(leg_vectors(row, "foot_position_reference")[0], references)

@@ -72,6 +72,13 @@ def test_pairs_that_all_agree_still_leave_doubt() -> None:
     assert interval.upper > 0.1
 
 
+def test_share_difference_of_bonett_and_price_by_hand() -> None:
+    """Of 20 pairs the first alone succeeds in 1 and the second alone in 5: with one more each, 2 and 6 of 22."""
+    interval = paired_share_difference(1, 5, 20)
+    assert interval.estimate == pytest.approx(0.2)
+    assert (interval.lower, interval.upper) == pytest.approx((-0.0584, 0.4221), abs=5e-5)
+
+
 def test_share_difference_covers_the_true_one_about_as_often_as_promised() -> None:
     rng = np.random.default_rng(1)
     draws = rng.multinomial(20, [0.1, 0.3, 0.6], size=4000)
@@ -113,7 +120,13 @@ def test_few_pairs_that_differ_cannot_be_sure_however_alike_they_are() -> None:
     assert sign_flip_probability(first, first) == 1.0
 
 
+def test_signs_that_are_turned_at_random_never_make_sure() -> None:
+    """The order that was observed is one of those that could be."""
+    assert sign_flip_probability(np.zeros(40), np.ones(40), resamples=999) == pytest.approx(1 / 1000)
+
+
 def test_correction_of_holm_1979() -> None:
     """The smallest counts n times, the next n - 1 times, and none is smaller than one before it."""
     adjusted = holm_adjusted(np.array([0.04, 0.01, 0.03, 0.9]))
     assert adjusted.tolist() == pytest.approx([0.09, 0.04, 0.09, 0.9])
+    assert holm_adjusted(np.array([0.8, 0.6])).tolist() == [1.0, 1.0]

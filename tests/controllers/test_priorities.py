@@ -1,6 +1,6 @@
 """Priorities are data: what stands higher in the YAML is kept, what stands lower gives way."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, Literal
 
@@ -68,15 +68,17 @@ def test_no_level_pays_for_a_lower_one(robot: RobotModel) -> None:
             assert more.level_residuals[name] == pytest.approx(residual, abs=1e-6)
 
 
-class GivesUp:
-    """A resolver whose solver never finishes."""
+@dataclass
+class Answers:
+    """A resolver that asks for torques which no drive can give, and may call that solved."""
 
+    solved: bool
     level_names = ("torque",)
     limit_names = level_names
 
     def resolve(self, kinematics: Kinematics, reference: ControlReference, last_torques: Array) -> Resolution:
         nonsense = np.full(12, 1e3)
-        return Resolution(nonsense, np.zeros(18), np.zeros((4, 3)), {"torque": 0.0}, 500, solved=False)
+        return Resolution(nonsense, np.zeros(18), np.zeros((4, 3)), {"torque": 0.0}, 500, solved=self.solved)
 
 
 def test_torques_stay_and_are_counted_when_the_solver_gives_up(robot: RobotModel) -> None:
@@ -85,10 +87,20 @@ def test_torques_stay_and_are_counted_when_the_solver_gives_up(robot: RobotModel
     controller.start(uniform_plan(robot, standing_schedule()), state)
     solved, telemetry = controller.tick(state)
     assert telemetry.fallbacks == 0
-    controller.resolver = GivesUp()
+    controller.resolver = Answers(solved=False)
     kept, telemetry = controller.tick(with_loads(robot, disturbed_state(robot, 0)))
     np.testing.assert_array_equal(kept.torques, solved.torques)
     assert telemetry.fallbacks == 1
+
+
+def test_torques_that_stay_are_within_the_limits(robot: RobotModel) -> None:
+    controller = build_controller(controller_config(), robot)
+    state = with_loads(robot, robot.nominal_state())
+    controller.start(uniform_plan(robot, standing_schedule()), state)
+    for solved in (True, False):
+        controller.resolver = Answers(solved)
+        command, _ = controller.tick(state)
+    np.testing.assert_array_equal(command.torques, robot.torque_limits)
 
 
 def test_level_names_are_reported_in_order() -> None:

@@ -87,10 +87,11 @@ def test_trot_follows_its_plan(robot: RobotModel, name: str) -> None:
 
 def test_telemetry_of_a_trot_agrees_with_itself(robot: RobotModel) -> None:
     controller, _, ticks = trot(robot)
-    swinging = 0
+    schedule, swinging = gait_schedule("trot", DURATION), 0
     for tick in ticks:
         stands = np.array([mode is LegMode.STANCE for mode in tick.leg_modes])
         swinging += int((~stands).sum())
+        np.testing.assert_array_equal(tick.planned_contacts, schedule.contacts_at(tick.plan_time_s))
         assert np.all(np.isnan(tick.foot_position_references).any(axis=1) == stands)
         assert np.all(tick.contact_forces_desired[~stands] == 0.0)
         assert np.all(tick.contact_forces_desired[stands, 2] > 0.0)

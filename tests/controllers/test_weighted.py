@@ -8,7 +8,8 @@ import pytest
 from preset_cases import near_rest, preset, resolved
 from pydantic import ValidationError
 
-from quadlab.controllers.reduced_dynamics import reduce_dynamics
+from quadlab.controllers.hierarchy import StackedLevels
+from quadlab.controllers.task_stack import TaskStack
 from quadlab.controllers.weighted import WeightedResolver
 from quadlab.geometry.rotations import Array
 from quadlab.robots.model import RobotModel
@@ -52,13 +53,30 @@ def test_compromise_is_stationary(robot: RobotModel) -> None:
     """Torques a little off the optimum, along directions that no limit forbids, cost more."""
     kinematics, reference = near_rest(robot, [0, 1, 2, 3])
     resolver = WeightedResolver(weighted(forces=1e-2))
-    levels = resolver._merged(
-        resolver._stack.assemble(kinematics, reference, reduce_dynamics(kinematics, [0, 1, 2, 3]))
-    )
+    _, levels = resolver.assemble(kinematics, reference)
     torques = resolver.resolve(kinematics, reference, np.zeros(12)).torques
     objective = slice(levels.breaks[-2], levels.breaks[-1])
     matrix, target = levels.matrix[objective], levels.upper[objective]
     np.testing.assert_allclose(matrix.T @ (matrix @ torques - target), 0.0, atol=1e-6 * np.abs(matrix).max())
+
+
+@pytest.mark.parametrize("stance", STANCES, ids=str)
+def test_objective_is_the_sum_of_weighted_squares(robot: RobotModel, stance: list[int]) -> None:
+    """What the docstring prints: sum_k weight_k |A_k x - b_k|^2, at any torques."""
+    config = weighted(swing=3.0, torso=0.5, forces=1e-2)
+    kinematics, reference = near_rest(robot, stance)
+    space, levels = WeightedResolver(config).assemble(kinematics, reference)
+    torques = np.random.default_rng(0).uniform(-1.0, 1.0, 12) * robot.torque_limits
+    stack = TaskStack(config.levels)
+    squares = dict(zip(stack.names, squared(stack.assemble(kinematics, reference, space), torques), strict=True))
+    expected = sum(weight * squares[name] for name, weight in config.weights.items())
+    assert squared(levels, torques)[-1] == pytest.approx(expected)
+
+
+def squared(levels: StackedLevels, torques: Array) -> list[float]:
+    """|A x - b|^2 of each level, with b its upper bound."""
+    residuals = levels.matrix @ torques - levels.upper
+    return [float(np.sum(residuals[begin:end] ** 2)) for begin, end in pairwise(levels.breaks)]
 
 
 @pytest.mark.parametrize("stance", STANCES, ids=str)

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib as mpl
+import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from plotting_cases import gait_schedule, scheduled_tick, straight_plan, write_trial
@@ -11,12 +12,19 @@ from synthetic_records import CONTROL_PERIOD, write_interrupted_log, write_log
 
 from quadlab.controllers.telemetry import LegMode
 from quadlab.errors import LogError
+from quadlab.geometry.rotations import Array
 from quadlab.plotting import trial_figures
 from quadlab.plotting.figure_files import save_figure
+from quadlab.plotting.trial.base import draw_base_angle
+from quadlab.plotting.trial.com import draw_com_error
+from quadlab.plotting.trial.feet import draw_foot_height
+from quadlab.plotting.trial.forces import draw_normal_force
 from quadlab.plotting.trial.overview import overview_figure, title
+from quadlab.plotting.trial.torques import draw_torques
 from quadlab.plotting.trial_figures import FIGURES, figures_of, plot_trial
 from quadlab.plotting.trial_view import TrialView, load_trial_view
 from quadlab.robots.catalogue import robot_config, robot_names
+from quadlab.robots.legs import LEG_JOINTS, LEGS
 from quadlab.robots.model import load_robot
 from quadlab.trials.result import TrialResult, TrialStatus, write_result
 
@@ -91,6 +99,33 @@ def test_vector_graphics_for_the_web_have_the_same_bytes_too(
 def test_a_log_without_computing_times_has_no_figure_of_them(tmp_path: Path) -> None:
     view = load_trial_view(_write(tmp_path, ticks=5, wall_times=False))
     assert set(figures_of(view)) == set(FIGURES) - {"timing"}
+
+
+def drawn_lines(draw: Callable[..., None], *arguments: object) -> dict[str, Array]:
+    """What a function draws into axes, by label."""
+    axes = Figure().subplots()
+    draw(axes, *arguments)
+    return {str(line.get_label()): np.asarray(line.get_ydata(), float) for line in axes.lines}
+
+
+def test_curves_have_the_units_and_the_legs_that_their_axes_name(view: TrialView) -> None:
+    state, control = view.log.state, view.log.control
+    errors_mm = drawn_lines(draw_com_error, view)
+    for axis in "xyz":
+        expected = 1e3 * (control[f"com_{axis}"] - control[f"com_reference_{axis}"])
+        np.testing.assert_allclose(errors_mm[axis], expected, atol=1e-3)
+    pitch_deg = drawn_lines(draw_base_angle, view, "pitch")
+    np.testing.assert_allclose(np.sin(np.radians(pitch_deg["measured"])), np.sin(control["base_pitch"]), atol=1e-6)
+    assert np.ptp(pitch_deg["measured"]) > 10.0
+    for joint, name in enumerate(LEG_JOINTS):
+        torques, limit = drawn_lines(draw_torques, view, joint), view.torque_limits[joint]
+        for leg in LEGS:
+            np.testing.assert_array_equal(torques[leg], state[f"joint_torque_{leg}_{name}"])
+        np.testing.assert_array_equal(torques["limit"], limit)
+    for number, leg in enumerate(LEGS):
+        forces, heights = (drawn_lines(draw, view, number) for draw in (draw_normal_force, draw_foot_height))
+        np.testing.assert_array_equal(forces["desired"], control[f"contact_force_desired_{leg}_z"])
+        np.testing.assert_array_equal(heights["measured"], control[f"foot_position_{leg}_z"])
 
 
 def test_figures_go_where_they_are_wanted(directory: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

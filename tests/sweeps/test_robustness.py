@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 from sweep_cases import STANDING, run, standing
@@ -21,7 +22,8 @@ from quadlab.trials.job import record_failure, run_job, trial_directory
 from quadlab.trials.lock import is_running, running
 from quadlab.trials.main import main
 from quadlab.trials.progress import SilentProgress
-from quadlab.trials.result import RESULT_FILE
+from quadlab.trials.result import RESULT_FILE, TrialResult
+from quadlab.trials.runner import run_trial
 
 SCRIPT = Path(__file__).parents[2] / "experiments" / "sweep_robustness.py"
 
@@ -69,20 +71,20 @@ def test_results_that_cannot_be_written_fail_every_trial_and_not_the_sweep(tmp_p
     assert all("Error" in str(job.failure) for job in outcomes.values())
 
 
-def _held_trial(folder: str, began: str) -> None:
-    trial = standing(1)[0]
-    directory = trial_directory(trial.config, _options(Path(folder)))
-    directory.mkdir(parents=True)
-    with running(directory):
+def _slow_trial(folder: str, began: str) -> None:
+    def slowly(*arguments: Any) -> TrialResult:
         Path(began).touch()
         time.sleep(1.0)
-        outcome = job_module._run(trial.config, directory, SilentProgress())
-        assert outcome.result is not None
+        return run_trial(*arguments)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(job_module, "run_trial", slowly)
+        assert run_job(standing(1)[0].config, _options(Path(folder)), SilentProgress()).result is not None
 
 
 def test_second_process_waits_for_a_trial_that_runs_and_takes_its_result(tmp_path: Path) -> None:
     began = tmp_path / "began"
-    first = multiprocessing.get_context("spawn").Process(target=_held_trial, args=(str(tmp_path), str(began)))
+    first = multiprocessing.get_context("spawn").Process(target=_slow_trial, args=(str(tmp_path), str(began)))
     first.start()
     while not began.exists():
         assert first.is_alive()
@@ -91,6 +93,7 @@ def test_second_process_waits_for_a_trial_that_runs_and_takes_its_result(tmp_pat
     assert is_running(directory)
     outcome = run_job(standing(1)[0].config, _options(tmp_path), SilentProgress())
     first.join()
+    assert first.exitcode == 0
     assert outcome.skipped
     assert not is_running(directory)
     assert not (directory / ".lock").exists()

@@ -104,12 +104,25 @@ def test_walk_of_splines_is_found_again_within_its_optimum() -> None:
 def test_waypoints_lie_where_the_plan_was_carried(trot: Planned) -> None:
     pose = np.array([0.3, -0.2, 0.1])
     progress = replace(planned_progress(trot.plan, 1.0), plan_pose_in_world=pose)
-    rest = remaining_problem(trot.problem, progress, trot.robot, planned_state(trot, 1.0), SHORTEST_PHASE_S)
+    state = replace(planned_state(trot, 1.0), angular_velocity_base_in_base=np.array([0.0, 0.0, 0.4]))
+    rest = remaining_problem(trot.problem, progress, trot.robot, state, SHORTEST_PHASE_S)
     goal = trot.problem.waypoints.poses[-1]
     np.testing.assert_allclose(rest.waypoints.poses[-1, :2], pose[:2] + rotation_2d(0.1) @ goal[:2])
     assert rest.waypoints.poses[-1, 2] == pytest.approx(goal[2] + 0.1)
     np.testing.assert_allclose(rest.waypoints.poses[0], [*rest.start.com_position, rest.start.yaw])
     assert rest.waypoints.times_s[-1] == pytest.approx(rest.schedule.duration_s)
+    assert rest.waypoints.yaw_rate == pytest.approx(0.4)
+
+
+@pytest.mark.parametrize("turns", [-1, 0, 2])
+def test_heading_is_counted_from_where_the_plan_has_turned_to(trot: Planned, turns: int) -> None:
+    """The measured one does not know of whole turns; a plan that began over would turn them back."""
+    poses = trot.problem.waypoints.poses + np.array([0.0, 0.0, 2.0 * np.pi * turns])
+    problem = replace(trot.problem, waypoints=replace(trot.problem.waypoints, poses=poses))
+    progress, state = planned_progress(trot.plan, 1.0), planned_state(trot, 1.0)
+    rest = remaining_problem(problem, progress, trot.robot, state, SHORTEST_PHASE_S)
+    assert rest.start.yaw == pytest.approx(2.0 * np.pi * turns, abs=0.05)
+    assert np.ptp(rest.waypoints.poses[:, 2]) < 0.1
 
 
 @pytest.mark.parametrize("before_s", [1e-4, 0.02, 0.049, 0.05, 0.2])

@@ -1,5 +1,6 @@
 """The cascade as printed: the same hierarchies, the same answers, and no failure that goes unnoticed."""
 
+import itertools
 from typing import get_args
 
 import numpy as np
@@ -7,7 +8,6 @@ import pytest
 import qpsolvers
 
 from quadlab.controllers.hierarchy import HierarchyError, Level, certificate, solve_hierarchy
-from quadlab.controllers.hierarchy import cascade as cascade_module
 from quadlab.controllers.hierarchy.cascade import CascadeSolution, CascadeStatus, QpSolver, solve_cascade
 from quadlab.controllers.hierarchy.daqp_hierarchical import solve_daqp_hierarchical
 from quadlab.controllers.hierarchy.random_hierarchy import DIMENSION, random_hierarchy
@@ -108,20 +108,17 @@ def test_three_opinions_on_random_hierarchies() -> None:
 
 def test_a_program_that_fails_is_named_and_leaves_the_point_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """The level is skipped, higher levels stay solved, its slacks are frozen where they are."""
-    levels = conflicting_third()
-    solved = cascade_module._solve_program
+    honest, calls = qpsolvers.solve_problem, itertools.count(1)
 
-    def fails_at_the_second(problem: object, null_space: Array, qp_solver: QpSolver) -> Array | str:
-        fails_at_the_second.calls += 1  # type: ignore[attr-defined]
-        if fails_at_the_second.calls == 2:  # type: ignore[attr-defined]
-            return "no luck"
-        return solved(problem, null_space, qp_solver)  # type: ignore[arg-type]
+    def fails_at_the_second(problem: qpsolvers.Problem, solver: str) -> qpsolvers.Solution:
+        if next(calls) == 2:
+            raise qpsolvers.exceptions.SolverError("no luck")
+        return honest(problem, solver=solver)
 
-    fails_at_the_second.calls = 0  # type: ignore[attr-defined]
-    monkeypatch.setattr(cascade_module, "_solve_program", fails_at_the_second)
-    solution = solve_cascade(levels)
+    monkeypatch.setattr(qpsolvers, "solve_problem", fails_at_the_second)
+    solution = solve_cascade(conflicting_third())
     assert solution.status is CascadeStatus.QP_FAILED
-    assert solution.failures == {"second": "no luck"}
+    assert solution.failures == {"second": "daqp: no luck"}
     assert solution.residual_norms["first"] < 1e-6
     assert solution.x[2] == pytest.approx(7.0, abs=1e-6), "the third level still gets what is left"
 

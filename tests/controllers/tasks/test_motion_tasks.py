@@ -121,6 +121,21 @@ def test_errors_are_pulled_towards_the_reference(robot: RobotModel, name: str) -
     np.testing.assert_allclose(asked, expected[name], rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.parametrize(("name", "rows"), [("base_yaw", slice(2, 3)), ("base_roll_pitch", slice(0, 2))])
+def test_base_that_is_almost_upside_down_is_pulled_back_the_short_way(
+    robot: RobotModel, name: str, rows: slice
+) -> None:
+    """Near half a turn, where the usual formula of the error loses the axis."""
+    kinematics = robot.kinematics(any_state(robot, 4))
+    turn = (np.pi - 1e-4) * np.array([2.0, -1.0, 2.0]) / 3.0
+    exact = reference_at(robot, kinematics)
+    reference = replace(exact, base_rotation=pin.exp3(turn) @ exact.base_rotation)
+    free = task(name, 0.0, 0.0).rows(kinematics, exact).upper
+    asked = task(name, STIFFNESS, DAMPING).rows(kinematics, reference).upper - free
+    expected = STIFFNESS * rotation_z(-yaw_of(kinematics.base_rotation)) @ turn
+    np.testing.assert_allclose(asked, expected[rows], rtol=1e-6)
+
+
 def test_no_swing_leg_asks_for_nothing(robot: RobotModel) -> None:
     kinematics = robot.kinematics(robot.nominal_state())
     rows = task("swing_feet", 1.0, 1.0).rows(kinematics, reference_at(robot, kinematics))

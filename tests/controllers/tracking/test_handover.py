@@ -64,6 +64,19 @@ def test_frame_of_the_first_plan_is_remembered(robot: RobotModel) -> None:
     assert after.plan_time_s == pytest.approx(1.0 + PERIOD)
 
 
+def test_time_that_the_old_plan_waited_is_no_time_of_the_new_one(robot: RobotModel) -> None:
+    plan, state, swing = uniform_plan(robot, TROT), robot.nominal_state(), TROT.swings[0][0]
+    tracker = tracker_for(robot, plan, state, contact={"lost_contact_s": 10.0, "freeze_plan_while_searching": True})
+    track(tracker, state, 0.0, swing.end_s - PERIOD)
+    time_s = swing.end_s + 0.2
+    track(tracker, state, swing.end_s, time_s - PERIOD, loaded=[1, 2, 3])
+    plan_time_s = tracker.progress(time_s, robot.kinematics(state)).plan_time_s
+    assert plan_time_s < time_s - 0.05, "the plan has waited for the late foot"
+    tracker.replace_plan(rest_of(plan, plan_time_s), time_s, robot.kinematics(state))
+    assert tracker.progress(0.0, robot.kinematics(state)).plan_time_s == pytest.approx(plan_time_s)
+    assert track(tracker, state, 0.0, 0.0).plan_time_s == pytest.approx(plan_time_s, abs=PERIOD)
+
+
 def test_progress_tells_what_each_foot_does(robot: RobotModel) -> None:
     plan, state = uniform_plan(robot, TROT), robot.nominal_state()
     kinematics, swing = robot.kinematics(state), TROT.swings[0][0]
@@ -72,6 +85,11 @@ def test_progress_tells_what_each_foot_does(robot: RobotModel) -> None:
     assert in_the_air.standing.tolist() == [False, True, True, False]
     assert in_the_air.regular
     np.testing.assert_allclose(in_the_air.feet, kinematics.foot_positions)
+    ahead = robot.kinematics(moved_state(state, np.array([0.1, 0.0]), 0.0))
+    feet = tracker.progress(swing.start_s + 0.5 * swing.duration_s, ahead).feet
+    np.testing.assert_allclose(feet[[1, 2]], ahead.foot_positions[[1, 2]])
+    np.testing.assert_allclose(feet[[0, 3]], kinematics.foot_positions[[0, 3]], err_msg="where they left the ground")
+    assert not tracker.progress(swing.end_s + 0.01, kinematics).regular, "in the air, though not by plan"
 
     touched_s = swing.start_s + 0.8 * swing.duration_s
     track(tracker, state, swing.start_s + 0.5 * swing.duration_s, touched_s, loaded=[0, 1, 2])
@@ -100,7 +118,22 @@ def test_late_foot_finds_the_first_foothold_of_the_new_plan(robot: RobotModel) -
     assert late.modes[0] is LegMode.SEARCH
     cut_s = late.plan_time_s + PERIOD
     assert tracker.progress(cut_s, robot.kinematics(state)).standing[0]
-    tracker.replace_plan(rest_of(plan, cut_s), cut_s, robot.kinematics(state))
+    rest = rest_of(plan, cut_s)
+    tracker.replace_plan(rest, cut_s, robot.kinematics(state))
     found = track(tracker, state, 0.0, PERIOD, loaded=[0, 1, 2, 3])
     assert found.modes[0] is LegMode.STANCE
     np.testing.assert_allclose(found.reference.com_position, plan.com(0.0)[:2], atol=1e-6)
+    following = rest.schedule.swings[0][0]
+    later = track(tracker, state, 2.0 * PERIOD, following.start_s + 0.5 * following.duration_s)
+    assert later.modes[0] is LegMode.SWING
+
+
+def test_feet_that_have_rolled_on_stand_where_the_new_plan_has_them(robot: RobotModel) -> None:
+    """By less than a slip, so that nothing has told the old plan."""
+    settings = {"alignment": {"torso": "feet", "swing": "feet"}, "contact": {"slip_m": 1.0}}
+    tracker = tracker_for(robot, uniform_plan(robot, standing_schedule()), robot.nominal_state(), **settings)
+    state = moved_state(robot.nominal_state(), np.array([0.01, -0.02]), 0.0)
+    track(tracker, state, 0.0, 0.1)
+    here = uniform_plan(robot, standing_schedule(), shift=(0.01, -0.02))
+    tracker.replace_plan(here, 0.1 + PERIOD, robot.kinematics(state))
+    np.testing.assert_allclose(track(tracker, state, 0.0, 0.5).torso_alignment.origin(), 0.0, atol=1e-9)

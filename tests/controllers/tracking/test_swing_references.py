@@ -9,13 +9,15 @@ from controller_cases import moved_state, tracking_config, uniform_plan
 from tracking_cases import PERIOD, SWING, TROT, track, tracker_for
 
 from quadlab.controllers.telemetry import LegMode
-from quadlab.controllers.tracking.alignment import identity_alignment
+from quadlab.controllers.tracking.alignment import PlanarPose, identity_alignment
 from quadlab.controllers.tracking.contact_machine import start_contacts
 from quadlab.controllers.tracking.feet import FootPlanner
-from quadlab.estimation.terrain_plane import fit_plane
-from quadlab.geometry.rotations import Array
+from quadlab.estimation.terrain_plane import TerrainPlane, fit_plane
+from quadlab.geometry.rotations import Array, rotation_2d
 from quadlab.robots.model import RobotModel
 from quadlab.robots.state import RobotState
+
+BASE_HEIGHT = 0.5  # [m] the unit of lengths of the swing
 
 
 def swing_end(robot: RobotModel, state: RobotState, velocity: tuple[float, float], alignment: str) -> Array:
@@ -57,6 +59,63 @@ def test_slower_plan_is_the_same_way_with_the_derivatives_of_a_slower_clock(robo
     np.testing.assert_allclose(slow[0], usual[0])
     np.testing.assert_allclose(slow[1], 0.4 * usual[1])
     np.testing.assert_allclose(slow[2], 0.4**2 * usual[2] - 0.7 * usual[1])
+
+
+AS_PLANNED, LEVEL = identity_alignment(), TerrainPlane((0.0, 0.0), 0.0, (0.0, 0.0))
+
+
+def at_touch_down(
+    robot: RobotModel,
+    state: RobotState,
+    footholds: Array,
+    alignment: PlanarPose = AS_PLANNED,
+    terrain: TerrainPlane = LEVEL,
+    too_fast: tuple[float, float] = (0.0, 0.0),
+) -> Array:
+    """Where LF and RH, which swing to ``footholds`` (4, 3) of the plan, are at the end of the swing, (2, 3) in [m].
+
+    The CoM is ``too_fast`` in [m/s].
+    """
+    kinematics, config = robot.kinematics(state), tracking_config()
+    planned = tuple(np.stack([foot, foot]) for foot in footholds)
+    planner = FootPlanner(config.swing, BASE_HEIGHT, 0.5, robot.nominal_feet_in_com, planned)
+    contacts = start_contacts(config.contact, TROT, 1.0, kinematics.foot_positions)
+    contacts.update(SWING, PERIOD, kinematics.foot_positions, np.ones(4))
+    velocity, end_s = kinematics.com_velocity[:2] - too_fast, TROT.swings[0][0].end_s
+    return planner.motions(contacts.legs, end_s, (1.0, 0.0), alignment, velocity, kinematics, terrain)[0, [0, 3]]
+
+
+@pytest.mark.parametrize("too_fast", [(0.0, 0.0), (0.1, -0.05)])
+def test_foothold_lies_where_the_plan_lies_or_brakes_and_just_below_the_sloped_ground(
+    robot: RobotModel, too_fast: tuple[float, float]
+) -> None:
+    """The pendulum is as long as the CoM is high over the ground below it."""
+    swing = tracking_config().swing
+    alignment = PlanarPose((0.1, -0.2), (1.5, 0.7), 0.6)
+    terrain = TerrainPlane((0.3, -0.4), 0.05, (0.2, -0.1))
+    state = moved_state(robot.nominal_state(), alignment.origin()[:2], alignment.yaw)
+    footholds = robot.kinematics(robot.nominal_state()).foot_positions + np.array([0.05, 0.02, 0.0])
+    com = robot.kinematics(state).com_position
+    step = swing.feedback * math.sqrt((com[2] - terrain.height_at(com[:2])) / 9.81) * np.array(too_fast)
+    landed = at_touch_down(robot, state, footholds, alignment, terrain, too_fast)
+    for foot, planned in zip(landed, footholds[[0, 3]], strict=True):
+        np.testing.assert_allclose(foot[:2], alignment.position(planned[:2]) + step, atol=1e-9)
+        assert foot[2] == pytest.approx(terrain.height_at(foot[:2]) - swing.depth * BASE_HEIGHT)
+
+
+@pytest.mark.parametrize("far", [(5.0, 5.0), (-5.0, 5.0), (0.0, -5.0)])
+def test_foothold_out_of_reach_is_at_the_end_of_the_legs_box_which_turns_with_the_base(
+    robot: RobotModel, far: tuple[float, float]
+) -> None:
+    heading = 0.9
+    state = moved_state(robot.nominal_state(), np.array([0.4, -0.3]), heading)
+    com, nominal = robot.kinematics(state).com_position[:2], robot.nominal_feet_in_com
+    asked = com + (nominal + far) @ rotation_2d(heading).T
+    landed = at_touch_down(robot, state, np.column_stack([asked, np.zeros(4)]))
+    offsets = (landed[:, :2] - com) @ rotation_2d(heading) - nominal[[0, 3]]
+    swing = tracking_config().swing
+    half_size = BASE_HEIGHT * np.array([swing.reach_forward, swing.reach_sideways])
+    np.testing.assert_allclose(offsets, np.tile(np.sign(far) * half_size, (2, 1)), atol=1e-12)
 
 
 def test_foothold_goes_with_the_displaced_base(robot: RobotModel) -> None:

@@ -13,7 +13,7 @@ from quadlab.controllers.tracking.torso_motion import (
 )
 from quadlab.estimation.terrain_plane import TerrainPlane
 from quadlab.geometry.pose_curve import PoseCurve, PoseMotion, pose_curve
-from quadlab.geometry.rotations import Array, matrix_to_quat, rotation_log, rotation_zyx
+from quadlab.geometry.rotations import Array, matrix_to_quat, rotation_2d, rotation_log, rotation_zyx
 
 LEVEL = Ground(TerrainPlane((0.0, 0.0), 0.0, (0.0, 0.0)), 0.0, 0.5)
 WHERE_IT_WAS = PlanarPose((0.0, 0.0), (0.0, 0.0), 0.0)
@@ -73,8 +73,9 @@ def test_base_keeps_its_planned_height_and_lean_over_sloped_ground() -> None:
 
 def test_base_under_the_com_moves_with_it_at_standing_height() -> None:
     com = (np.array([1.0, 2.0]), np.array([0.3, 0.1]), np.array([0.5, -0.4]))
-    found = torso_under_com(com, (np.pi / 2.0, 0.2), LEVEL._replace(height=0.05), NominalStance((0.02, 0.0), 0.47))
-    np.testing.assert_allclose(found.position, [1.0, 1.98, 0.52])
+    found = torso_under_com(com, (0.5, 0.2), LEVEL._replace(height=0.05), NominalStance((0.02, -0.01), 0.47))
+    np.testing.assert_allclose(found.position[:2] + rotation_2d(0.5) @ [0.02, -0.01], com[0])
+    assert found.position[2] == pytest.approx(0.52)
     np.testing.assert_allclose(found.velocity, [0.3, 0.1, 0.0])
     np.testing.assert_allclose(found.acceleration, [0.5, -0.4, 0.0])
     np.testing.assert_allclose(found.angular_velocity, [0.0, 0.0, 0.2])

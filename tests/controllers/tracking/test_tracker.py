@@ -5,12 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from contact_scripts import one_leg_schedule
 from controller_cases import moved_state, standing_schedule, uniform_plan
 from tracking_cases import PERIOD, SWING, TROT, track, tracker_for
 
 from quadlab.controllers.telemetry import LegMode
 from quadlab.estimation.terrain_plane import fit_plane
-from quadlab.geometry.rotations import euler_zyx, matrix_to_quat, rotation_2d, rotation_zyx, yaw_of
+from quadlab.geometry.rotations import euler_zyx, matrix_to_quat, rotation_2d, rotation_z, rotation_zyx, yaw_of
 from quadlab.geometry.splines import PiecewisePolynomial
 from quadlab.robots.model import RobotModel
 from quadlab.robots.state import RobotState
@@ -48,6 +49,7 @@ def test_plan_follows_a_displaced_robot(robot: RobotModel, torso: str) -> None:
     np.testing.assert_allclose(tick.reference.com_position, expected, atol=0.1 * 0.02)
     np.testing.assert_allclose(tick.reference.com_velocity, rotation_2d(yaw) @ [0.1, 0.0], atol=1e-4)
     assert yaw_of(tick.reference.base_rotation) == pytest.approx(yaw, abs=1e-4)
+    np.testing.assert_allclose(tick.reference.ground_axes, rotation_z(yaw), atol=1e-4)
 
 
 def test_unaligned_plan_stays_where_it_was_made(robot: RobotModel) -> None:
@@ -134,6 +136,24 @@ def test_clock_of_the_plan_stops_for_a_late_foot_only_if_told_to(robot: RobotMod
     assert np.linalg.norm(late.reference.com_acceleration) == pytest.approx(brake, rel=0.03)
 
 
+def test_references_of_a_plan_that_waits_are_those_of_a_slower_clock(robot: RobotModel) -> None:
+    """By the chain rule: velocities times the rate r, accelerations times r^2, and r_dot times the velocities."""
+    knots, plan = np.array([0.0, TROT.duration_s]), uniform_plan(robot, TROT)
+    com = np.array([[plan.com(0.0), [0.1, 0.0, 0.0], [0.2, -0.05, 0.0]]])
+    heading = PiecewisePolynomial(knots, np.array([[[0.0], [0.3]]]))
+    plan = replace(plan, com=PiecewisePolynomial(knots, com), heading=heading)
+    settings = {"alignment": {"torso": "none"}, "contact": {"freeze_plan_while_searching": True}}
+    tracker, end_s = tracker_for(robot, plan, robot.nominal_state(), **settings), TROT.swings[0][0].end_s
+    track(tracker, robot.nominal_state(), 0.6, end_s - PERIOD)
+    late = track(tracker, robot.nominal_state(), end_s, end_s + 0.1, loaded=[1, 2, 3])
+    time_constant_s, sample = math.sqrt(robot.nominal_com_height / 9.81), late.sample
+    rate = math.exp(-0.1 / time_constant_s)
+    np.testing.assert_allclose(late.reference.com_velocity, rate * sample.com_velocity[:2], rtol=0.02)
+    np.testing.assert_allclose(late.reference.base_angular_velocity, [0.0, 0.0, 0.3 * rate], rtol=0.02)
+    change = rate**2 * sample.com_acceleration - rate / time_constant_s * sample.com_velocity
+    np.testing.assert_allclose(late.reference.com_acceleration, change[:2], rtol=0.02)
+
+
 def test_force_limits_fall_before_lift_off_and_rise_after_touch_down(robot: RobotModel) -> None:
     tracker = tracker_for(robot, uniform_plan(robot, TROT), robot.nominal_state())
     weight = robot.mass * 9.81
@@ -146,6 +166,17 @@ def test_force_limits_fall_before_lift_off_and_rise_after_touch_down(robot: Robo
     np.testing.assert_allclose(landing.normal_force_limits[[0, 3]], 0.1 * weight, rtol=1e-6)
     later = track(tracker, robot.nominal_state(), touch_down_s + PERIOD, touch_down_s + 0.02).reference
     np.testing.assert_allclose(later.normal_force_limits[[0, 3]], 2.0 * weight)
+
+
+@pytest.mark.parametrize(("towards", "mode"), [(1.0, LegMode.STANCE), (-1.0, LegMode.SWING)])
+def test_leg_stays_down_while_the_robot_falls_towards_it(robot: RobotModel, towards: float, mode: LegMode) -> None:
+    """LF is to swing from 0.2 s on; a robot that falls the other way can spare it."""
+    leg = robot.nominal_feet_in_com[0]
+    velocity = 0.3 * towards * leg / np.linalg.norm(leg)  # [m/s]
+    pushed = replace(robot.nominal_state(), linear_velocity_base_in_world=np.array([*velocity, 0.0]))
+    plan = uniform_plan(robot, one_leg_schedule())
+    tracker = tracker_for(robot, plan, robot.nominal_state(), contact={"capture_margin_m": 0.02})
+    assert track(tracker, pushed, 0.0, 0.25, loaded=[0, 1, 2, 3]).modes[0] is mode
 
 
 def test_modes_follow_the_plan(robot: RobotModel) -> None:
