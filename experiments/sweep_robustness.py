@@ -49,8 +49,12 @@ def finished(folder: Path) -> int:
     return len(list(folder.glob("*/*/result.json")))
 
 
-def disturb(folder: Path, count: int, kills: int) -> None:
-    """Run the sweep, kill ``kills`` workers at random moments of its first half, then the sweep itself."""
+def disturb(folder: Path, count: int, kills: int) -> int:
+    """Run the sweep, kill ``kills`` workers at random moments of its first half, then the sweep itself.
+
+    Returns:
+        How many workers were killed: fewer if the sweep was over before.
+    """
     draw = random.Random(RANDOM_SEED)
     moments = sorted(draw.randrange(1, max(2, count // 2)) for _ in range(kills))
     process = start_sweep(folder, count)
@@ -66,6 +70,7 @@ def disturb(folder: Path, count: int, kills: int) -> None:
     process.kill()
     process.wait()
     sys.stdout.write(f"killed {killed} workers, then the sweep after {finished(folder)} of {count} results\n")
+    return killed
 
 
 def compare(undisturbed: Path, disturbed: Path, count: int) -> list[str]:
@@ -92,9 +97,12 @@ def main() -> int:
     if options.only_sweep:
         return int(sweep(options.folder, options.trials) > 0)
     undisturbed, disturbed = options.folder / "undisturbed", options.folder / "disturbed"
-    disturb(disturbed, options.trials, options.kills)
+    if undisturbed.exists() or disturbed.exists():
+        parser.error(f"--folder: {options.folder} has trials from before, which would not be run again")
+    killed = disturb(disturbed, options.trials, options.kills)
     codes = [start_sweep(folder, options.trials).wait() for folder in (disturbed, undisturbed)]
     problems = [f"a sweep ended with exit code {code}" for code in codes if code]
+    problems += [f"{killed} workers were killed instead of {options.kills}"] * (killed < options.kills)
     problems += compare(undisturbed, disturbed, options.trials)
     sys.stdout.write("".join(f"{problem}\n" for problem in problems))
     sys.stdout.write(f"{options.trials} rows, {len(problems)} differences\n")

@@ -40,6 +40,9 @@ def test_killed_workers_and_a_killed_sweep_change_no_row(tmp_path: Path) -> None
     assert done.returncode == 0, done.stdout + done.stderr
     assert "killed 1 workers, then the sweep" in done.stdout
     assert done.stdout.endswith("4 rows, 0 differences\n")
+    again = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert again.returncode == 2
+    assert "has trials from before, which would not be run again" in again.stderr
 
 
 def test_full_disk_is_one_line_and_leaves_no_result(
