@@ -11,14 +11,7 @@ import numpy as np
 from quadlab.configuration import NonNegative, StrictModel, register
 from quadlab.constants import GRAVITY
 from quadlab.estimation.contact_detection import ContactDetectionConfig, ContactDetector
-from quadlab.estimation.correction import (
-    Correction,
-    LegMeasurementConfig,
-    choose_feet,
-    correct,
-    foot_innovations,
-    place_foot,
-)
+from quadlab.estimation.correction import Correction, LegMeasurementConfig, correct
 from quadlab.estimation.error_state import (
     ACCELEROMETER_BIAS,
     ERROR_SIZE,
@@ -34,7 +27,7 @@ from quadlab.estimation.error_state import (
 )
 from quadlab.estimation.estimate import Estimate, FilterReport, ReadSensors
 from quadlab.estimation.leg_kinematics import LegKinematics, LegModel
-from quadlab.estimation.prediction import ProcessNoiseConfig, predict, propagate
+from quadlab.estimation.prediction import ProcessNoiseConfig, predict
 from quadlab.gaits.schedule import BoolArray
 from quadlab.geometry.rotations import Array, matrix_to_quat, skew
 from quadlab.robots.legs import LEG_COUNT
@@ -119,7 +112,7 @@ class ExtendedKalmanFilter:
         reading = read_sensors()
         legs = self._legs.kinematics(reading.joint_positions, reading.joint_velocities)
         rotation, position = true_state.rotation_base_to_world, true_state.position_base_in_world
-        truth = FilterState(
+        truth = FilterState.of(
             position=position,
             velocity=true_state.linear_velocity_base_in_world,
             rotation=rotation,
@@ -138,7 +131,9 @@ class ExtendedKalmanFilter:
         self.state = box_plus(truth, error)
         self.covariance = _initial_covariance(self.config.initial, self.state)
         self._remember(reading, legs)
-        report = self._report(Correction(self.state, self.covariance), np.zeros(LEG_COUNT, dtype=bool), 0.0)
+        no_feet = np.zeros(LEG_COUNT, dtype=bool)
+        correction = Correction(self.state, self.covariance, no_feet, no_feet, self._refusals, 0.0)
+        report = self._report(correction, 0.0)
         return Estimate(self._robot_state(reading, reading.foot_forces_in_base @ self.state.rotation.T), report)
 
     def update(self, read_sensors: ReadSensors, true_state: RobotState) -> Estimate:
@@ -149,18 +144,22 @@ class ExtendedKalmanFilter:
         self._predict(reading, legs)
         forces = self._foot_forces(reading, legs)
         landed = self._detect(forces)
-        correction, used = self._correct(legs, landed)
+        correction = self._correct(legs, landed)
         self._remember(reading, legs)
         update_us = 1e6 * (time.perf_counter() - began)
         felt = np.where(self._detector.touches[:, None], forces, 0.0)
-        return Estimate(self._robot_state(reading, felt), self._report(correction, used, update_us))
+        return Estimate(self._robot_state(reading, felt), self._report(correction, update_us))
 
     def _predict(self, reading: SensorReading, legs: LegKinematics) -> None:
-        spins = 0.5 * (self._foot_spins + legs.foot_spins)
-        prediction = predict(self.state, reading, spins, self._period_s, self._foot_radius)
-        self.state = prediction.state
-        self.covariance = propagate(
-            self.covariance, prediction.dynamics, self.config.process_noise, self._standing, self._period_s
+        self.state, self.covariance = predict(
+            self.state,
+            self.covariance,
+            reading,
+            0.5 * (self._foot_spins + legs.foot_spins),
+            self._standing,
+            self.config.process_noise,
+            self._period_s,
+            self._foot_radius,
         )
 
     def _foot_forces(self, reading: SensorReading, legs: LegKinematics) -> Array:
@@ -179,20 +178,19 @@ class ExtendedKalmanFilter:
         landed: BoolArray = self._standing & ~before
         return landed
 
-    def _correct(self, legs: LegKinematics, landed: BoolArray) -> tuple[Correction, BoolArray]:
-        """Correct by the feet that keep standing, then place those that landed or slipped too long."""
-        config = self.config.leg_measurement
-        innovations = foot_innovations(self.state, self.covariance, legs, config)
-        measured = self._standing & ~landed
-        used, self._refusals = choose_feet(innovations.distances, measured, self._refusals, config)
-        correction = correct(self.state, self.covariance, innovations, used)
-        self.state, self.covariance = correction.state, correction.covariance
-        self._outliers += int(np.count_nonzero(self._refusals))
-        for leg in np.flatnonzero(landed | (self._refusals > config.patience_ticks)).tolist():
-            noise = innovations.noise[leg]
-            self.state, self.covariance = place_foot(self.state, self.covariance, legs, noise, leg)
-            self._refusals[leg] = 0
-        return correction, used
+    def _correct(self, legs: LegKinematics, landed: BoolArray) -> Correction:
+        correction = correct(
+            self.state,
+            self.covariance,
+            legs,
+            self._standing,
+            landed,
+            self._refusals,
+            self.config.leg_measurement,
+        )
+        self.state, self.covariance, self._refusals = correction.state, correction.covariance, correction.refusals
+        self._outliers += int(np.count_nonzero(correction.refused))
+        return correction
 
     def _remember(self, reading: SensorReading, legs: LegKinematics) -> None:
         self._joint_velocities, self._foot_spins = reading.joint_velocities, legs.foot_spins
@@ -209,18 +207,18 @@ class ExtendedKalmanFilter:
             foot_forces_in_world=forces,
         )
 
-    def _report(self, correction: Correction, used: BoolArray, update_us: float) -> FilterReport:
+    def _report(self, correction: Correction, update_us: float) -> FilterReport:
         deviations = standard_deviations(self.state, self.covariance)
         return FilterReport(
             accelerometer_bias=self.state.accelerometer_bias,
             gyro_bias=self.state.gyro_bias,
             contacts=self._standing,
-            used=used,
+            used=correction.used,
             position_std=deviations[0],
             velocity_std=deviations[1],
             orientation_std=deviations[2],
             innovation_squared=correction.innovation_squared,
-            innovation_size=3 * int(used.sum()),
+            innovation_size=3 * int(np.count_nonzero(correction.used)),
             outliers=self._outliers,
             update_us=update_us,
         )

@@ -17,13 +17,13 @@ the vertical) are the same at every estimate, so no constraint is needed.
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TypeAlias
+from typing import Self, TypeAlias
 
 import numpy as np
 
 from quadlab.geometry.rotations import Array, rotation_log
-from quadlab.jit import compiled, compiled_entry
+from quadlab.jit import compiled, compiled_entry, inlined
+from quadlab.robots.legs import LEG_COUNT
 
 POSITION = slice(0, 3)
 VELOCITY = slice(3, 6)
@@ -35,7 +35,7 @@ ERROR_SIZE = 27
 """Blocks of the error."""
 
 FilterArrays: TypeAlias = tuple[Array, Array, Array, Array, Array, Array]
-"""The attributes of ``FilterState`` in their order."""
+"""The attributes of ``FilterState`` but ``values``, in their order."""
 
 
 def foot_block(leg: int) -> slice:
@@ -68,60 +68,88 @@ def rotation_exp(vector: Array) -> Array:
     return rotation
 
 
+@inlined
+def parts(values: Array) -> FilterArrays:
+    """Return views of the attributes of a ``FilterState`` in its values, (33,)."""
+    rotation, feet = values[6:15].reshape((3, 3)), values[15:27].reshape((LEG_COUNT, 3))
+    return values[:3], values[3:6], rotation, feet, values[27:30], values[30:]
+
+
 @compiled_entry
-def moved_by(
-    error: Array, position: Array, velocity: Array, rotation: Array, feet: Array, accelerometer: Array, gyro: Array
-) -> FilterArrays:
-    """Return the arrays of the state that differs from the given one by ``error``, (27,); see ``box_plus``."""
+def moved_by(error: Array, values: Array) -> Array:
+    """Return the values of the state that differs from that of ``values``, (33,), by ``error``; see ``box_plus``."""
+    position, velocity, rotation, feet, accelerometer, gyro = parts(values)
+    moved = np.empty_like(values)
+    later_position, later_velocity, later_rotation, later_feet, later_accelerometer, later_gyro = parts(moved)
     turn = rotation_exp(error[_ORIENTATION:_FEET])
-    moved_feet = np.empty_like(feet)
-    for leg in range(len(feet)):
+    later_position[:] = turn @ position + error[:_VELOCITY]
+    later_velocity[:] = turn @ velocity + error[_VELOCITY:_ORIENTATION]
+    later_rotation[:] = turn @ rotation
+    for leg in range(LEG_COUNT):
         first = _FEET + 3 * leg
-        moved_feet[leg] = turn @ feet[leg] + error[first : first + 3]
-    return (
-        turn @ position + error[:_VELOCITY],
-        turn @ velocity + error[_VELOCITY:_ORIENTATION],
-        turn @ rotation,
-        moved_feet,
-        accelerometer + error[_ACCELEROMETER:_GYRO],
-        gyro + error[_GYRO:],
-    )
+        later_feet[leg] = turn @ feet[leg] + error[first : first + 3]
+    later_accelerometer[:] = accelerometer + error[_ACCELEROMETER:_GYRO]
+    later_gyro[:] = gyro + error[_GYRO:]
+    return moved
 
 
 @dataclass(frozen=True)
 class FilterState:
-    """What the filter believes.
+    """What the filter believes; its attributes are views of one array.
 
     Attributes:
-        position: r, base origin in world, (3,) in [m].
-        velocity: v, of the base origin in world components, (3,) in [m/s].
-        rotation: R, base to world, (3, 3).
-        feet: p_i, centres of the foot spheres in world, (4, 3) in [m]; of a foot in the air: where it stood last.
-        accelerometer_bias: b_f, (3,) in [m/s^2].
-        gyro_bias: b_w, (3,) in [rad/s].
+        values: all of it in the order of ``of``, (33,), as compiled functions take and return it.
     """
 
-    position: Array
-    velocity: Array
-    rotation: Array
-    feet: Array
-    accelerometer_bias: Array
-    gyro_bias: Array
+    values: Array
+
+    @classmethod
+    def of(
+        cls,
+        position: Array,
+        velocity: Array,
+        rotation: Array,
+        feet: Array,
+        accelerometer_bias: Array,
+        gyro_bias: Array,
+    ) -> Self:
+        """Return the state with these attributes."""
+        return cls(np.concatenate([position, velocity, *rotation, *feet, accelerometer_bias, gyro_bias]))
 
     @property
-    def arrays(self) -> FilterArrays:
-        """The attributes in their order, as compiled functions take and return them."""
-        return self.position, self.velocity, self.rotation, self.feet, self.accelerometer_bias, self.gyro_bias
+    def position(self) -> Array:
+        """r, base origin in world, (3,) in [m]."""
+        return self.values[:3]
 
-    @cached_property
-    def feet_from_base(self) -> Array:
-        """p_i - r, (4, 3) in [m]."""
-        return self.feet - self.position
+    @property
+    def velocity(self) -> Array:
+        """v, of the base origin in world components, (3,) in [m/s]."""
+        return self.values[3:6]
+
+    @property
+    def rotation(self) -> Array:
+        """R, base to world, (3, 3)."""
+        return self.values[6:15].reshape(3, 3)
+
+    @property
+    def feet(self) -> Array:
+        """p_i, centres of the foot spheres in world, (4, 3) in [m]; of a foot in the air: where it stood last."""
+        return self.values[15:27].reshape(LEG_COUNT, 3)
+
+    @property
+    def accelerometer_bias(self) -> Array:
+        """b_f, (3,) in [m/s^2]."""
+        return self.values[27:30]
+
+    @property
+    def gyro_bias(self) -> Array:
+        """b_w, (3,) in [rad/s]."""
+        return self.values[30:]
 
 
 def box_plus(state: FilterState, error: Array) -> FilterState:
     """Return the state that differs from ``state`` by ``error``, (27,)."""
-    return FilterState(*moved_by(error, *state.arrays))
+    return FilterState(moved_by(error, state.values))
 
 
 def box_minus(state: FilterState, reference: FilterState) -> Array:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +16,8 @@ from quadlab.estimation.error_state import (
     GYRO_BIAS,
     ORIENTATION,
     VELOCITY,
-    FilterArrays,
     FilterState,
+    parts,
     rotation_exp,
 )
 from quadlab.gaits.schedule import BoolArray
@@ -50,24 +50,29 @@ class ProcessNoiseConfig(StrictModel):
     accelerometer_bias_mps3_per_sqrt_hz: Positive
     foot_mps_per_sqrt_hz: Positive
 
-
-@dataclass(frozen=True)
-class Prediction:
-    """The outcome of one inertial step.
-
-    Attributes:
-        state: one period later.
-        dynamics: Jacobian F, (27, 27), of the error after the step by the error before it, at zero error.
-    """
-
-    state: FilterState
-    dynamics: Array
+    @cached_property
+    def densities(self) -> tuple[float, float, float, float, float]:
+        """Those of gyroscope, accelerometer, their biases and of the feet's slip, as compiled functions take them."""
+        return (
+            self.gyro_radps_per_sqrt_hz,
+            self.accelerometer_mps2_per_sqrt_hz,
+            self.gyro_bias_radps2_per_sqrt_hz,
+            self.accelerometer_bias_mps3_per_sqrt_hz,
+            self.foot_mps_per_sqrt_hz,
+        )
 
 
 def predict(
-    state: FilterState, reading: SensorReading, foot_spins: Array, period_s: float, foot_radius: float
-) -> Prediction:
-    """Return the state one period T later and how its error follows from the error before.
+    state: FilterState,
+    covariance: Array,
+    reading: SensorReading,
+    foot_spins: Array,
+    standing: BoolArray,
+    config: ProcessNoiseConfig,
+    period_s: float,
+    foot_radius: float,
+) -> tuple[FilterState, Array]:
+    """Return state and covariance, (27, 27), one period T later.
 
         r+ = r + T v + T^2 / 2 (f + g)     v+ = v + T (f + g)     R+ = R exp(T w)     p_i+ = p_i + T Omega_i x rho e_z
 
@@ -82,45 +87,30 @@ def predict(
         dr+     = dr + T dv + T^2/2 (g x dtheta - R_m db_f) - T r+ x B + T^3/4 f x B
         dp_i+   = dp_i + (T rho e_z x (Omega_i x .) + u_i x .) dtheta + T rho e_z x B - T p_i+ x B
 
-    where terms of T^2 rho are left out.
+    where terms of T^2 rho are left out. With F of d+ = F d the covariance becomes F P F^T + Q. The noise of gyroscope
+    and accelerometer enters Q where their biases do; Q is the first-order discretisation of Bloesch 2012, III-D.
 
     Args:
-        state: at the start of the period.
+        state, covariance: at the start of the period.
         reading: at its end; its rates are means over the period.
         foot_spins: mean angular velocity of each foot relative to the base, in base axes, (4, 3) in [rad/s].
+        standing: feet whose slip counts, (4,).
+        config: densities of the noise.
         period_s: T in [s].
         foot_radius: rho in [m].
     """
-    arrays, dynamics = _predict(state.arrays, reading.gyro, reading.accelerometer, foot_spins, period_s, foot_radius)
-    return Prediction(FilterState(*arrays), dynamics)
-
-
-def propagate(
-    covariance: Array, dynamics: Array, config: ProcessNoiseConfig, standing: BoolArray, period_s: float
-) -> Array:
-    """Return F P F^T + Q, (27, 27): the covariance after one period.
-
-    The noise of gyroscope and accelerometer enters where their biases do. Q is the first-order discretisation of
-    Bloesch 2012, III-D.
-
-    Args:
-        covariance: P, (27, 27).
-        dynamics: F of the period.
-        config: densities.
-        standing: feet whose slip counts, (4,).
-        period_s: in [s].
-    """
-    return _propagate(
+    values, later = _predict(
+        state.values,
         covariance,
-        dynamics,
+        reading.gyro,
+        reading.accelerometer,
+        foot_spins,
         standing,
         period_s,
-        config.accelerometer_mps2_per_sqrt_hz,
-        config.gyro_radps_per_sqrt_hz,
-        config.foot_mps_per_sqrt_hz,
-        config.accelerometer_bias_mps3_per_sqrt_hz,
-        config.gyro_bias_radps2_per_sqrt_hz,
+        foot_radius,
+        config.densities,
     )
+    return FilterState(values), later
 
 
 @inlined
@@ -168,56 +158,16 @@ def _error_dynamics(
     return jacobian
 
 
-def _compile_prediction(fingerprint: int) -> Callable[..., tuple[FilterArrays, Array]]:
-    @compiled_entry
-    def step(
-        state: FilterArrays,
-        gyro: Array,
-        accelerometer: Array,
-        foot_spins: Array,
-        period_s: float,
-        foot_radius: float,
-    ) -> tuple[FilterArrays, Array]:
-        """Return the arrays of the state after the step and F; see ``predict``."""
-        _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
-        position, velocity, rotation, feet, accelerometer_bias, gyro_bias = state
-        angular_velocity = gyro - gyro_bias
-        mean_rotation = rotation @ rotation_exp(0.5 * period_s * angular_velocity)
-        force = mean_rotation @ (accelerometer - accelerometer_bias)
-        spins, moved_feet = np.empty_like(feet), feet.copy()
-        for leg in range(len(feet)):
-            spins[leg] = mean_rotation @ (angular_velocity + foot_spins[leg])
-            moved_feet[leg, 0] += period_s * foot_radius * spins[leg, 1]  # Omega x rho e_z
-            moved_feet[leg, 1] -= period_s * foot_radius * spins[leg, 0]
-        acceleration = force + _GRAVITY
-        moved = position + period_s * velocity + 0.5 * period_s**2 * acceleration
-        later_velocity = velocity + period_s * acceleration
-        turned = rotation @ rotation_exp(period_s * angular_velocity)
-        dynamics = _error_dynamics(
-            period_s, mean_rotation, force, spins, foot_radius, moved, later_velocity, moved_feet
-        )
-        arrays = (moved, later_velocity, turned, moved_feet, accelerometer_bias.copy(), gyro_bias.copy())
-        return arrays, dynamics
-
-    return step
-
-
-_predict = _compile_prediction(source_fingerprint(Path(__file__).parent))
-
-
-@compiled_entry
-def _propagate(
+@compiled
+def _grown(
     covariance: Array,
     dynamics: Array,
     standing: BoolArray,
     period_s: float,
-    accelerometer: float,
-    gyro: float,
-    foot: float,
-    accelerometer_bias: float,
-    gyro_bias: float,
+    densities: tuple[float, float, float, float, float],
 ) -> Array:
-    """Return F P F^T + Q of ``propagate`` for the densities of ``ProcessNoiseConfig``."""
+    """Return F P F^T + Q of ``predict``, (27, 27)."""
+    gyro, accelerometer, gyro_bias, accelerometer_bias, foot = densities
     inputs = dynamics[:_ACCELEROMETER, _ACCELEROMETER:].copy()
     inputs[:, :3] *= accelerometer / math.sqrt(period_s)
     inputs[:, 3:] *= gyro / math.sqrt(period_s)
@@ -230,3 +180,44 @@ def _propagate(
         later[_ACCELEROMETER + axis, _ACCELEROMETER + axis] += period_s * accelerometer_bias**2
         later[_GYRO + axis, _GYRO + axis] += period_s * gyro_bias**2
     return later
+
+
+def _compile_prediction(fingerprint: int) -> Callable[..., tuple[Array, Array]]:
+    @compiled_entry
+    def step(
+        values: Array,
+        covariance: Array,
+        gyro: Array,
+        accelerometer: Array,
+        foot_spins: Array,
+        standing: BoolArray,
+        period_s: float,
+        foot_radius: float,
+        densities: tuple[float, float, float, float, float],
+    ) -> tuple[Array, Array]:
+        """Return values of the state, (33,), and covariance after the step; see ``predict``."""
+        _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
+        position, velocity, rotation, feet, accelerometer_bias, gyro_bias = parts(values)
+        later = values.copy()
+        later_position, later_velocity, later_rotation, later_feet, _, _ = parts(later)
+        angular_velocity = gyro - gyro_bias
+        mean_rotation = rotation @ rotation_exp(0.5 * period_s * angular_velocity)
+        force = mean_rotation @ (accelerometer - accelerometer_bias)
+        spins = np.empty_like(feet)
+        for leg in range(LEG_COUNT):
+            spins[leg] = mean_rotation @ (angular_velocity + foot_spins[leg])
+            later_feet[leg, 0] += period_s * foot_radius * spins[leg, 1]  # Omega x rho e_z
+            later_feet[leg, 1] -= period_s * foot_radius * spins[leg, 0]
+        acceleration = force + _GRAVITY
+        later_position[:] = position + period_s * velocity + 0.5 * period_s**2 * acceleration
+        later_velocity[:] = velocity + period_s * acceleration
+        later_rotation[:] = rotation @ rotation_exp(period_s * angular_velocity)
+        dynamics = _error_dynamics(
+            period_s, mean_rotation, force, spins, foot_radius, later_position, later_velocity, later_feet
+        )
+        return later, _grown(covariance, dynamics, standing, period_s, densities)
+
+    return step
+
+
+_predict = _compile_prediction(source_fingerprint(Path(__file__).parent))

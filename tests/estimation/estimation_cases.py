@@ -59,7 +59,7 @@ def _zeros(values: dict[str, Any]) -> dict[str, Any]:
 
 def any_filter_state(seed: int) -> FilterState:
     generator = np.random.default_rng(seed)
-    return FilterState(
+    return FilterState.of(
         position=generator.normal(size=3),
         velocity=generator.normal(size=3),
         rotation=rotation_zyx(*generator.uniform(-1.0, 1.0, 3)),
