@@ -3,6 +3,7 @@
 import hashlib
 import json
 from dataclasses import dataclass
+from functools import lru_cache
 from glob import escape
 from pathlib import Path
 from typing import Any
@@ -122,11 +123,24 @@ def configuration_hash() -> str:
 
     Comments do not count, nor do other studies and how sweeps are launched.
     """
+    paths = (
+        path for path in sorted(CONF_DIR.rglob("*.yaml")) if path.relative_to(CONF_DIR).parts[0] not in _NOT_OF_TRIALS
+    )
+    return _hash_of(tuple((path, _version(path)) for path in paths))
+
+
+def _version(path: Path) -> tuple[int, ...]:
+    """Return numbers that change when the file does."""
+    status = path.stat()
+    return status.st_mtime_ns, status.st_ctime_ns, status.st_size, status.st_ino
+
+
+@lru_cache(maxsize=1)
+def _hash_of(files: tuple[tuple[Path, tuple[int, ...]], ...]) -> str:
+    """Return the hash of files, each with its version; they are read once as long as none of them changes."""
     digest = hashlib.sha256()
-    for path in sorted(CONF_DIR.rglob("*.yaml")):
-        name = path.relative_to(CONF_DIR)
-        if name.parts[0] not in _NOT_OF_TRIALS:
-            digest.update(json.dumps([str(name), *_content(path)], default=str).encode())
+    for path, _ in files:
+        digest.update(json.dumps([str(path.relative_to(CONF_DIR)), *_content(path)], default=str).encode())
     return digest.hexdigest()
 
 

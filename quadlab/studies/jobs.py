@@ -10,7 +10,7 @@ from quadlab.paths import checkout_dir
 from quadlab.planners.plan import MotionPlan
 from quadlab.studies.files import file_hash
 from quadlab.studies.rows import DIRECTORY, FAILURE, LOG_HASH, Row
-from quadlab.trials.compose import compose_trial, split_document
+from quadlab.trials.compose import split_document
 from quadlab.trials.composer import Composer
 from quadlab.trials.config import RunOptions, TrialConfig
 from quadlab.trials.job import run_job
@@ -21,7 +21,7 @@ from quadlab.trials.progress import SilentProgress
 from quadlab.trials.recording.topics import LOG_FILE
 from quadlab.trials.result import TrialStatus
 
-Job: TypeAlias = Callable[[Sequence[str], Path], Row]
+Job: TypeAlias = Callable[[Sequence[str], Path, Composer], Row]
 """Takes overrides and the study's folder; leaves its files below it and returns a row with a ``status``."""
 
 Check: TypeAlias = Callable[[Sequence[str], Composer], object]
@@ -78,9 +78,9 @@ def study_job(name: str, check: Check = composes) -> Callable[[Job], Job]:
 
 
 @study_job("trial")
-def trial_row(overrides: Sequence[str], folder: Path) -> Row:
+def trial_row(overrides: Sequence[str], folder: Path, composer: Composer) -> Row:
     """Run one closed-loop trial, unless its result is there, and return its result as a row."""
-    config = compose_trial([*overrides, "tag=trials", "log.wall_times=false"])
+    config = composes([*overrides, "tag=trials", "log.wall_times=false"], composer)
     outcome = run_job(config, RunOptions(force=False, results_dir=str(folder)), SilentProgress())
     made_by = json.loads((outcome.directory / MANIFEST_FILE).read_text(encoding="utf-8"))["git"]
     place = {DIRECTORY: str(outcome.directory.relative_to(folder)), "commit": made_by and made_by["commit"]}
@@ -95,9 +95,9 @@ def trial_row(overrides: Sequence[str], folder: Path) -> Row:
 
 
 @study_job("plan")
-def plan_row(overrides: Sequence[str], folder: Path) -> Row:
+def plan_row(overrides: Sequence[str], folder: Path, composer: Composer) -> Row:
     """Plan without a trial and return size, times, costs, residuals and the checker's verdict as a row."""
-    config = compose_trial([*overrides, "tag=plans"])
+    config = composes([*overrides, "tag=plans"], composer)
     job = run_plan_job(config, RunOptions(force=False, results_dir=str(folder)))
     row: Row = {
         "status": job.outcome.status.value,

@@ -14,7 +14,7 @@ from quadlab.planners.planner import PlanningStatus
 from quadlab.robots.model import load_robot
 from quadlab.studies.jobs import composes, current_commit, study_job
 from quadlab.studies.rows import FAILURE, Row
-from quadlab.trials.compose import compose_trial
+from quadlab.trials.composer import Composer
 from quadlab.trials.config import TrialConfig
 from quadlab.trials.planning import planning_problem
 
@@ -23,12 +23,12 @@ REPETITIONS = 7
 
 
 @study_job("kinematic_cycles", check=lambda overrides, composer: kinematic_config(composes(overrides, composer)))
-def kinematic_cycles_row(overrides: Sequence[str], _: Path) -> Row:
+def kinematic_cycles_row(overrides: Sequence[str], _: Path, composer: Composer) -> Row:
     """Minimise from the nominal stance and return costs by objective, totals by iteration and times as a row.
 
     The minimum is not checked as a plan: cycles without a stance after them end in motion.
     """
-    config = compose_trial([*overrides, "tag=cycles"])
+    config = composes([*overrides, "tag=cycles"], composer)
     planner_config = kinematic_config(config)
     robot = load_robot(config.robot)
     problem = planning_problem(config, robot, robot.nominal_state())

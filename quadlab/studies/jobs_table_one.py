@@ -15,9 +15,9 @@ from quadlab.planners.problem import PlanningProblem
 from quadlab.planners.vertex_zmp.biped import RECTANGULAR_FOOT, biped_problem
 from quadlab.planners.vertex_zmp.planner import VertexZmpPlanner
 from quadlab.planners.vertex_zmp.table_one import TABLE_ONE, table_one_changes, table_one_problem
-from quadlab.studies.jobs import current_commit, plan_numbers, study_job
+from quadlab.studies.jobs import composes, current_commit, plan_numbers, study_job
 from quadlab.studies.rows import DIRECTORY, FAILURE, Row
-from quadlab.trials.compose import compose_trial
+from quadlab.trials.composer import Composer
 from quadlab.trials.files import write_bytes
 from quadlab.trials.plan_job import PLAN_FILE
 from quadlab.trials.problems import suggestion
@@ -52,7 +52,7 @@ def check_table_one(overrides: Sequence[str], _: object) -> None:
 
 
 @study_job("table_one", check=check_table_one)
-def table_one_row(overrides: Sequence[str], folder: Path) -> Row:
+def table_one_row(overrides: Sequence[str], folder: Path, composer: Composer) -> Row:
     """Plan ``case=<column of Table I, or biped>`` in ``transcription=fast|paper``; return sizes and times as a row.
 
     Raises:
@@ -60,7 +60,7 @@ def table_one_row(overrides: Sequence[str], folder: Path) -> Row:
     """
     options = table_one_options(overrides)
     problem, changes = case_problem(options["case"], options["transcription"])
-    composed: Any = compose_trial(["planner=vertex_zmp"]).planner
+    composed: Any = composes(["planner=vertex_zmp"], composer).planner
     settings = composed.model_dump()
     planner = VertexZmpPlanner(VertexZmpPlanner.Config.model_validate({**settings, **changes}))
     with threadpool_limits(1):

@@ -5,30 +5,38 @@ This module imports whatever jobs need; what only asks whether something is left
 
 from collections.abc import Sequence
 from contextlib import suppress
+from functools import lru_cache
 from pathlib import Path
 
 import quadlab.studies.jobs_kinematic
 import quadlab.studies.jobs_table_one  # noqa: F401 - their jobs can be named in a study
 from quadlab.errors import ConfigurationError, LogError, QuadlabError
 from quadlab.studies.files import configuration_hash, last_row, remove_trace, write_row
-from quadlab.studies.jobs import job_named
+from quadlab.studies.jobs import composes, job_named
 from quadlab.studies.rows import DIRECTORY, FAILURE, LOG_HASH, Row
 from quadlab.studies.traces import write_trace
 from quadlab.studies.work import Work, has_plan
 from quadlab.sweeps.warm_up import warm_up, warm_up_trials
-from quadlab.trials.compose import compose_trial
+from quadlab.trials.composer import Composer
 from quadlab.trials.files import write_bytes
 from quadlab.trials.plan_job import PLAN_FILE
 from quadlab.trials.result import RESULT_FILE, TrialStatus
 
 
+@lru_cache(maxsize=1)
+def _composer_of(_configuration: str) -> Composer:
+    """Return that of this process and of all that are forked from it: each knows what was composed before."""
+    return Composer()
+
+
 def warm_up_works(works: Sequence[Work]) -> None:
-    """Load what the trials among ``works`` need; for the process that workers are forked from."""
+    """Load what the trials among ``works`` need, YAML included; for the process that workers are forked from."""
+    configuration_hash()
     trials = []
     for work in works:
         if work.study.job == "trial":
             with suppress(QuadlabError):  # the job itself will say it
-                trials.append(compose_trial(work.condition.overrides))
+                trials.append(composes(work.condition.overrides, _composer_of(work.configuration)))
     warm_up(warm_up_trials(trials))
 
 
@@ -64,7 +72,8 @@ def _done(work: Work) -> Row:
 def _run(work: Work) -> Row:
     """Run the job between two looks at the configuration: whichever file it read is one of when the study began."""
     _check_configuration(work)
-    row = job_named(work.study.job)(work.condition.overrides, work.folder.path)
+    composer = _composer_of(work.configuration)
+    row = job_named(work.study.job)(work.condition.overrides, work.folder.path, composer)
     _check_configuration(work)
     return row
 

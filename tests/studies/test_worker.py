@@ -13,6 +13,7 @@ from quadlab.studies.files import StudyFolder, configuration_hash
 from quadlab.studies.rows import DIRECTORY, Row
 from quadlab.studies.work import Work, remembered
 from quadlab.studies.worker import do_work
+from quadlab.trials.composer import Composer
 
 STANDING = {
     "title": "A robot that stands",
@@ -33,10 +34,25 @@ def _work(results: Path, seed: int = 0, configuration: str | None = None, **chan
 def _job(monkeypatch: pytest.MonkeyPatch, job: Callable[[], Row]) -> None:
     """Make ``job: fake`` something that studies can ask for."""
 
-    def run(overrides: Sequence[str], folder: Path) -> Row:
+    def run(overrides: Sequence[str], folder: Path, composer: Composer) -> Row:
         return job()
 
     monkeypatch.setitem(jobs.JOBS, "fake", run)
+
+
+def test_yaml_is_composed_anew_for_another_configuration(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = []
+
+    def run(overrides: Sequence[str], folder: Path, composer: Composer) -> Row:
+        seen.append(composer)
+        return {"status": "error"}
+
+    monkeypatch.setitem(jobs.JOBS, "fake", run)
+    for configuration in ("before", "before", "edited"):
+        monkeypatch.setattr(worker, "configuration_hash", lambda now=configuration: now)
+        do_work(_work(tmp_path, job="fake", configuration=configuration))
+    assert seen[0] is seen[1]
+    assert seen[1] is not seen[2]
 
 
 def _rows(results: Path) -> list[Path]:
