@@ -82,14 +82,16 @@ def moved_by(error: Array, values: Array) -> Array:
     moved = np.empty_like(values)
     later_position, later_velocity, later_rotation, later_feet, later_accelerometer, later_gyro = parts(moved)
     turn = rotation_exp(error[_ORIENTATION:_FEET])
-    later_position[:] = turn @ position + error[:_VELOCITY]
-    later_velocity[:] = turn @ velocity + error[_VELOCITY:_ORIENTATION]
-    later_rotation[:] = turn @ rotation
+    turned_position, turned_velocity, turned = turn @ position, turn @ velocity, turn @ rotation
+    for axis in range(3):
+        later_position[axis] = turned_position[axis] + error[axis]
+        later_velocity[axis] = turned_velocity[axis] + error[_VELOCITY + axis]
+        later_rotation[axis] = turned[axis]
+        later_accelerometer[axis] = accelerometer[axis] + error[_ACCELEROMETER + axis]
+        later_gyro[axis] = gyro[axis] + error[_GYRO + axis]
     for leg in range(LEG_COUNT):
         first = _FEET + 3 * leg
         later_feet[leg] = turn @ feet[leg] + error[first : first + 3]
-    later_accelerometer[:] = accelerometer + error[_ACCELEROMETER:_GYRO]
-    later_gyro[:] = gyro + error[_GYRO:]
     return moved
 
 

@@ -209,9 +209,11 @@ def _compile_prediction(fingerprint: int) -> Callable[..., tuple[Array, Array]]:
             later_feet[leg, 0] += period_s * foot_radius * spins[leg, 1]  # Omega x rho e_z
             later_feet[leg, 1] -= period_s * foot_radius * spins[leg, 0]
         acceleration = force + _GRAVITY
-        later_position[:] = position + period_s * velocity + 0.5 * period_s**2 * acceleration
-        later_velocity[:] = velocity + period_s * acceleration
-        later_rotation[:] = rotation @ rotation_exp(period_s * angular_velocity)
+        turned = rotation @ rotation_exp(period_s * angular_velocity)
+        for axis in range(3):
+            later_position[axis] = position[axis] + period_s * velocity[axis] + 0.5 * period_s**2 * acceleration[axis]
+            later_velocity[axis] = velocity[axis] + period_s * acceleration[axis]
+            later_rotation[axis] = turned[axis]
         dynamics = _error_dynamics(
             period_s, mean_rotation, force, spins, foot_radius, later_position, later_velocity, later_feet
         )
