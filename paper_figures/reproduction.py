@@ -6,15 +6,16 @@ from pathlib import Path
 
 from pydantic import Field, ValidationError, field_validator
 
+from paper_figures.drawing import drawings
 from paper_figures.gallery import PAPERS as TITLES
-from paper_figures.gallery import ArtefactScript, artefact_scripts, draw_artefact, is_drawn
+from paper_figures.gallery import ArtefactScript, artefact_scripts, is_drawn
 from paper_figures.readme_table import write_readme
 from paper_figures.report_page import write_page
 from paper_figures.summary import Judged, judge, write_summary
 from quadlab.analysis.study_results import StudyResults
 from quadlab.command_line import EXIT_FAILED, EXIT_OK, exit_code
 from quadlab.configuration import StrictModel
-from quadlab.errors import ConfigurationError, QuadlabError
+from quadlab.errors import ConfigurationError
 from quadlab.studies.main import INTERRUPTED
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.runner import run_studies
@@ -87,7 +88,7 @@ def reproduce(options: ReproduceOptions, progress: StudyProgress) -> int:
     results = StudyResults(FOLDER.parent / "results")
     studies = list(dict.fromkeys(study for script in scripts for study in script.artefact.studies))
     errors = run_studies(studies, results.folder, options.jobs, progress)
-    missing = draw_all(scripts, results, progress)
+    missing = draw_all(scripts, results, options.jobs, progress)
     judged = judge(artefact_scripts([]), results)
     write_overviews(judged, results)
     for entry in [entry for entry in judged if entry.script in scripts]:
@@ -119,16 +120,21 @@ def write_overviews(judged: Sequence[Judged], results: StudyResults) -> list[Pat
     return [*write_summary(judged, results.folder), page, readme]
 
 
-def draw_all(scripts: Sequence[ArtefactScript], results: StudyResults, progress: StudyProgress) -> int:
-    """Draw what can be drawn and is not up to date, and return how many artefacts lack their results."""
+def draw_all(scripts: Sequence[ArtefactScript], results: StudyResults, workers: int, progress: StudyProgress) -> int:
+    """Draw what can be drawn and is not up to date, some at a time, and return how many artefacts were not drawn.
+
+    Args:
+        scripts: of the artefacts.
+        results: that they are drawn from.
+        workers: processes at a time.
+        progress: told what was written, and what could not be.
+    """
     missing = 0
-    for script in scripts:
-        if is_drawn(script, results, FOLDER):
-            continue
-        try:
-            for path in draw_artefact(script, results, FOLDER):
-                progress.say(str(path.relative_to(FOLDER.parent)))
-        except QuadlabError as error:
+    waiting = [script for script in scripts if not is_drawn(script, results, FOLDER)]
+    for drawing in drawings(waiting, results, FOLDER, workers):
+        for path in drawing.paths:
+            progress.say(str(path.relative_to(FOLDER.parent)))
+        if drawing.problem:
             missing += 1
-            progress.say(f"{script.name}: {error}")
+            progress.say(f"{drawing.script.name}: {drawing.problem}")
     return missing

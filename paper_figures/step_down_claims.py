@@ -9,6 +9,8 @@ from quadlab.analysis.artefact import Claim, verdict
 from quadlab.controllers.telemetry import LegMode
 from quadlab.robots.legs import LEGS
 
+EDGE_M = 0.75
+"""Where the edge is in the trials whose curves and pictures are kept."""
 DESCENDED_M = 0.05
 """Below that, a hind foot is on its way down the step."""
 TILTED_DEG, STRAIGHT_DEG = 1.0, 6.0
@@ -61,7 +63,7 @@ def stretched(trace: pd.DataFrame, step_m: float) -> Claim:
     )
     straight = bool(np.isfinite(search.straight_s)) and down_mm < 1e3 * step_m
     found = verdict(holds=straight and stays_low(trace), partly=straight)
-    text = "without limb limits, edge at 1 m: the leg stretches and does not reach the ground"
+    text = f"without limb limits, edge at {EDGE_M:g} m: the leg stretches and does not reach the ground"
     why = "" if stays_low(trace) else SWINGS_UP[0].upper() + SWINGS_UP[1:]
     return Claim(text, "extends until its kinematic limits", ours, found, why)
 

@@ -1,5 +1,6 @@
 """What all commands have in common: exit codes, and one line instead of a traceback for what was wrong."""
 
+import argparse
 import os
 import sys
 from collections.abc import Callable
@@ -37,6 +38,17 @@ def exit_code(command: Callable[[], int], interrupted: str = "interrupted") -> i
         complain(os_error_line(error))
         return EXIT_FAILED
     return code
+
+
+def positive_number(text: str) -> int:
+    """Return the whole number above 0 that an option was given.
+
+    Raises:
+        ArgumentTypeError: if it is none.
+    """
+    if not (text.isdecimal() and int(text) > 0):
+        raise argparse.ArgumentTypeError(f"expected a whole number above 0 (got '{text}')")
+    return int(text)
 
 
 def complain(problem: str) -> None:

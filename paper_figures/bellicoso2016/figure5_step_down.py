@@ -8,6 +8,7 @@ from matplotlib.image import imread
 
 from paper_figures.limb_extensions import extension_limit, limb_extensions
 from paper_figures.step_down_claims import (
+    EDGE_M,
     SWINGS_UP,
     adaptation,
     lowers_at_the_limit,
@@ -25,10 +26,10 @@ from quadlab.studies.config import load_study
 
 STUDY = "bellicoso2016_step_down"
 CAPTION = (
-    "Walk, 0.25 m a stride, down a 14 cm step at x = 1 m with the priorities of the paper; estimator ekf, seed 0, "
-    "nominal start. Left and pictures: with limb limits; right: without, until it falls at the end of the curves, "
-    "curves cut off there. Wide blue: desired; dashed: measured; dotted: limit of the height of a hip over its foot. "
-    "Here LF descends first, in the paper RF. Settings of this scenario: apex of the swing 0.19 of the standing "
+    f"Walk, 0.25 m a stride, down a 14 cm step at x = {EDGE_M:g} m with the priorities of the paper; estimator ekf, "
+    "seed 0, nominal start. Left and pictures: with limb limits; right: without, until it falls at the end of the "
+    "curves, curves cut off there. Wide blue: desired; dashed: measured; dotted: limit of the height of a hip over its "
+    "foot. Here LF descends first, in the paper RF. Settings of this scenario: apex of the swing 0.19 of the standing "
     "height, search begins at 0.8 of the swing with 0.5 m/s, the plan waits meanwhile, the desired torso stays level."
 )
 ARTEFACT = Artefact("B-F56", "Bellicoso 2016, Fig. 5 and 6", "An unperceived step down of 14 cm", (STUDY,), CAPTION)
@@ -81,6 +82,7 @@ def _draw_trial(panels: "np.ndarray[tuple[int], np.dtype[np.object_]]", trace: p
     _draw_desired(for_angles, times, np.degrees(trace["control.base_reference_pitch"]))
     for name, colour in (("pitch", SERIES[2]), ("roll", SERIES[3])):
         for_angles.plot(times, np.degrees(trace[f"control.base_{name}"]), "--", color=colour, label=name)
+    for_height.set_ylim(0.33, 0.57)
     for_angles.set_ylim(-16.0, 16.0)
     for leg, colour, extension in zip(LEGS, LEG_COLOURS, limb_extensions(trace).T, strict=True):
         for_limbs.plot(times, extension, color=colour, label=leg)
@@ -136,7 +138,7 @@ def _ablation(rows: pd.DataFrame, trace: pd.DataFrame) -> Claim:
     same = (
         "" if count == len(fell) else "A robot that never stands on the step falls in the same way wherever it begins."
     )
-    how = "" if stays_low(trace) else f"With the edge at 1 m, {SWINGS_UP}"
+    how = "" if stays_low(trace) else f"With the edge at {EDGE_M:g} m, {SWINGS_UP}"
     return Claim(
         "falls without the limb limits, ekf",
         "fails",

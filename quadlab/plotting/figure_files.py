@@ -1,12 +1,14 @@
 """Figures as files: the same figure gives the same bytes."""
 
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
 
 from quadlab.plotting.style import paper_style
+from quadlab.trials.files import write_bytes
 
 PAPER_FORMATS = ("png", "pdf")
 
@@ -19,7 +21,7 @@ _METADATA: dict[str, dict[str, Any]] = {
 
 
 def save_figure(figure: Figure, folder: Path, name: str, formats: Sequence[str] = PAPER_FORMATS) -> list[Path]:
-    """Write ``figure`` as ``<folder>/<name>.<format>`` and return the paths; an older file is replaced.
+    """Write ``figure`` as ``<folder>/<name>.<format>`` and return the paths; an older file is replaced in one step.
 
     Args:
         figure: to be written.
@@ -27,11 +29,12 @@ def save_figure(figure: Figure, folder: Path, name: str, formats: Sequence[str] 
         name: without suffix.
         formats: any of png, pdf and svg.
     """
-    folder.mkdir(parents=True, exist_ok=True)
     paths = [folder / f"{name}.{kind}" for kind in formats]
     with paper_style():
         figure.draw_without_rendering()
         figure.set_layout_engine("none")  # laid out once, the same in all formats
         for kind, path in zip(formats, paths, strict=True):
-            figure.savefig(path, format=kind, metadata=_METADATA[kind])
+            content = BytesIO()
+            figure.savefig(content, format=kind, metadata=_METADATA[kind])
+            write_bytes(path, content.getvalue())
     return paths

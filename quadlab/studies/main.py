@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from quadlab.command_line import EXIT_FAILED, EXIT_OK, exit_code
+from quadlab.command_line import EXIT_FAILED, EXIT_OK, exit_code, positive_number
 from quadlab.studies.config import study_names
 from quadlab.studies.progress import StudyProgress
 from quadlab.studies.runner import run_studies
@@ -17,7 +17,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the studies that the arguments name and return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, epilog=f"studies: {', '.join(study_names())}")
     parser.add_argument("study", nargs="+", help="name of a file in conf/study")
-    parser.add_argument("--jobs", type=_positive, default=usable_cores(), help="processes at a time")
+    parser.add_argument("--jobs", type=positive_number, default=usable_cores(), help="processes at a time")
     parser.add_argument("--results", type=Path, default=Path("results"), help="folder of all results")
     options = parser.parse_args(arguments)
     return exit_code(lambda: _run(options), INTERRUPTED)
@@ -30,9 +30,3 @@ def _run(options: argparse.Namespace) -> int:
         report = options.results / name / "report.md"
         progress.say(f"{report}:\n{report.read_text(encoding='utf-8')}")
     return EXIT_FAILED if errors else EXIT_OK
-
-
-def _positive(text: str) -> int:
-    if not (text.isdecimal() and int(text) > 0):
-        raise argparse.ArgumentTypeError(f"expected a whole number above 0 (got '{text}')")
-    return int(text)

@@ -4,13 +4,21 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from paper_figures.step_down_claims import lowers_at_the_limit, stays_low, stretched, tilts_at_the_limit
+from paper_figures.bellicoso2016.figure5_step_down import STUDY
+from paper_figures.reproduction import FOLDER
+from paper_figures.step_down_claims import EDGE_M, lowers_at_the_limit, stays_low, stretched, tilts_at_the_limit
+from paper_figures.trial_claims import completed
 from quadlab.analysis.artefact import Verdict
+from quadlab.analysis.study_results import StudyResults
 from quadlab.controllers.telemetry import LegMode
+from quadlab.errors import LogError
 from quadlab.robots.legs import LEGS
+from quadlab.studies.config import load_study
 
 TIMES = np.arange(0.0, 2.0, 0.02)
 STEP_M, LIMIT_M = 0.14, 0.5
+EDGE = "scenario.terrain.0.edge_x_m"
+HIND_FEET_M = 0.363  # behind the base of a standing ANYmal B
 
 
 def _trace(foot_m: float, knee_deg: float = 3.0, falls_s: float = 1.5) -> pd.DataFrame:
@@ -70,3 +78,15 @@ def test_a_torso_answers_a_limit_after_it_and_soon(tilt_s: float, found: Verdict
 @pytest.mark.parametrize(("lower_s", "found"), [(1.3, Verdict.REPRODUCED), (1.1, Verdict.PARTLY), (9.0, Verdict.NOT)])
 def test_the_torso_goes_down_after_the_diagonal_hind_leg_is_at_its_limit(lower_s: float, found: Verdict) -> None:
     assert lowers_at_the_limit(_torso(lower_s=lower_s), LIMIT_M).verdict is found
+
+
+def test_whoever_completes_the_walk_has_its_hind_feet_down_as_well() -> None:
+    try:
+        rows = completed(StudyResults(FOLDER.parent / "results").table(STUDY))
+    except LogError as error:
+        pytest.skip(str(error))
+    assert (rows["distance_m"] - rows[EDGE]).min() > HIND_FEET_M
+
+
+def test_kept_curves_are_of_the_edge_that_the_claims_name() -> None:
+    assert {trace.where[EDGE] for trace in load_study(STUDY).traces} == {EDGE_M}
