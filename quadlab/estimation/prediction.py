@@ -102,8 +102,7 @@ def predict(
     values, later = _predict(
         state.values,
         covariance,
-        reading.gyro,
-        reading.accelerometer,
+        (reading.gyro, reading.accelerometer),
         foot_spins,
         standing,
         period_s,
@@ -187,16 +186,16 @@ def _compile_prediction(fingerprint: int) -> Callable[..., tuple[Array, Array]]:
     def step(
         values: Array,
         covariance: Array,
-        gyro: Array,
-        accelerometer: Array,
+        rates: tuple[Array, Array],
         foot_spins: Array,
         standing: BoolArray,
         period_s: float,
         foot_radius: float,
         densities: tuple[float, float, float, float, float],
     ) -> tuple[Array, Array]:
-        """Return values of the state, (33,), and covariance after the step; see ``predict``."""
+        """Return values of the state, (33,), and covariance after ``predict``; rates: of gyroscope and accelerometer."""
         _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
+        gyro, accelerometer = rates
         position, velocity, rotation, feet, accelerometer_bias, gyro_bias = parts(values)
         later = values.copy()
         later_position, later_velocity, later_rotation, later_feet, _, _ = parts(later)
