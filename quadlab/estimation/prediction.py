@@ -193,7 +193,7 @@ def _compile_prediction(fingerprint: int) -> Callable[..., tuple[Array, Array]]:
         foot_radius: float,
         densities: tuple[float, float, float, float, float],
     ) -> tuple[Array, Array]:
-        """Return values of the state, (33,), and covariance after ``predict``; rates: of gyroscope and accelerometer."""
+        """Return values of the state, (33,), and covariance after ``predict``; rates: gyroscope and accelerometer."""
         _ = fingerprint  # a closure variable, so that the cached machine code follows a change of any file here
         gyro, accelerometer = rates
         position, velocity, rotation, feet, accelerometer_bias, gyro_bias = parts(values)
