@@ -60,7 +60,7 @@ def survival(text: str, rows: pd.DataFrame, paper: str, needed: int | None = Non
     holds, enough = good >= (len(rows) if needed is None else needed), len(rows) >= FEWEST_TRIALS
     found = judged(paper, holds=holds and enough, partly=good > 0)
     few = "" if enough or found is Verdict.NEW else TOO_FEW
-    return Claim(text, paper, share(rows), found, " ".join(filter(None, ["" if holds else why, few])))
+    return Claim(text, paper, share(rows), found, " ".join(filter(None, ["" if good == len(rows) else why, few])))
 
 
 def paper_stack(rows: pd.DataFrame, paper: str, what: str = "stays up") -> Claim:
