@@ -11,13 +11,13 @@ from typing import Any
 
 import yaml
 
-from quadlab.analysis.yaml_text import load_yaml
 from quadlab.errors import LogError
 from quadlab.trials.identity import ID_LENGTH
 from quadlab.trials.job import CONFIG_FILE, ERROR_FILE
 from quadlab.trials.lock import is_running
 from quadlab.trials.manifest import MANIFEST_FILE
 from quadlab.trials.result import RESULT_FILE, TrialResult, read_result
+from quadlab.yaml_text import load_yaml
 
 _TRIAL_NAME = re.compile(rf"[0-9a-f]{{{ID_LENGTH}}}")
 

@@ -3,10 +3,10 @@
 from pydantic import ValidationError
 
 from quadlab.analysis.trial_log import TrialLog
-from quadlab.analysis.yaml_text import load_yaml
 from quadlab.errors import LogError
 from quadlab.trials.config import TrialConfig
 from quadlab.trials.recording.topics import CONFIG_ATTACHMENT
+from quadlab.yaml_text import load_yaml
 
 
 def logged_config(log: TrialLog) -> TrialConfig:

@@ -12,7 +12,6 @@ from pydantic import TypeAdapter, ValidationError
 from quadlab.analysis.log_reader import read_log
 from quadlab.analysis.trial_directory import find_log
 from quadlab.analysis.trial_log import TrialLog
-from quadlab.analysis.yaml_text import load_yaml
 from quadlab.errors import LogError
 from quadlab.geometry.rotations import Array
 from quadlab.planners.plan import MotionPlan
@@ -23,6 +22,7 @@ from quadlab.simulation.ground import Ground
 from quadlab.simulation.terrain import TerrainConfig, build_ground
 from quadlab.trials.recording.topics import CONFIG_ATTACHMENT, LOG_FILE, URDF_ATTACHMENT
 from quadlab.trials.result import RESULT_FILE, TrialResult, read_result
+from quadlab.yaml_text import load_yaml
 
 
 @dataclass(frozen=True)

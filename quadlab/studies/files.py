@@ -10,10 +10,10 @@ from typing import Any
 
 import yaml
 
-from quadlab.analysis.yaml_text import load_yaml
 from quadlab.paths import CONF_DIR
 from quadlab.studies.config import TraceConfig
 from quadlab.trials.files import write_json
+from quadlab.yaml_text import load_yaml
 
 _NOT_OF_TRIALS = {"study", "launcher"}
 """Folders of configuration that change no trial; a study's own jobs are named after what they override."""

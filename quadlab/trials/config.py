@@ -4,7 +4,6 @@ import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator
 from typing import Annotated, Protocol, Self
 
-import yaml
 from pydantic import Field, StringConstraints, model_validator
 
 from quadlab.configuration import PartOf, Positive, StrictModel
@@ -29,6 +28,7 @@ from quadlab.trials.failure import FailureConfig
 from quadlab.trials.problems import suggestion
 from quadlab.trials.recording.config import LogConfig
 from quadlab.trials.replanning import ReplanningConfig
+from quadlab.yaml_text import dump_yaml
 
 Tag = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
 """A folder name: letters, digits, dot, dash, underscore."""
@@ -93,8 +93,7 @@ class TrialConfig(StrictModel):
 
     def to_yaml(self) -> str:
         """Return it as the text of a file."""
-        text: str = yaml.safe_dump(self.model_dump(mode="json"), sort_keys=False)
-        return text
+        return dump_yaml(self.model_dump(mode="json"))
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:

@@ -9,12 +9,11 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
-import yaml
 from synthetic_records import write_log
 from trial_folders import begin, fail, finish, options
 
 from quadlab import sweep_commands
-from quadlab.analysis import inventory, yaml_text
+from quadlab.analysis import inventory
 from quadlab.analysis import sweep_status as status_module
 from quadlab.analysis.clean import find_litter
 from quadlab.analysis.trial_directory import find_log
@@ -158,11 +157,6 @@ def test_clean_needs_no_configuration(folder: Path, monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(inventory, "load_yaml", refuse)
     assert find_litter(folder)
-
-
-def test_yaml_is_read_by_libyaml_where_it_is_there() -> None:
-    assert (yaml_text.LOADER is not yaml.SafeLoader) == yaml.__with_libyaml__
-    assert yaml_text.load_yaml("a: [1, 2.5, null, true, x]") == {"a": [1, 2.5, None, True, "x"]}
 
 
 def test_clean_asks_first(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
