@@ -23,7 +23,7 @@ ORDER = (
     "plotting",
     "studies",
 )
-BASE = {"command_line", "errors", "configuration", "constants", "paths", "jit"}
+BASE = {"command_line", "errors", "configuration", "constants", "paths", "jit", "yaml_text"}
 OWNERS = {"mujoco": {"simulation"}, "omegaconf": {"trials", "sweeps"}, "hydra": {"trials", "sweeps"}}
 FILES = sorted(PACKAGE.rglob("*.py"))
 
