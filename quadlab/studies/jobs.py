@@ -22,7 +22,7 @@ from quadlab.trials.recording.topics import LOG_FILE
 from quadlab.trials.result import TrialStatus
 
 Job: TypeAlias = Callable[[Sequence[str], Path, Composer], Row]
-"""Takes overrides and the study's folder; leaves its files below it and returns a row with a ``status``."""
+"""Takes overrides, the study's folder and what composes; leaves files below it, returns a row with a ``status``."""
 
 Check: TypeAlias = Callable[[Sequence[str], Composer], object]
 """Takes the overrides of a job and raises ConfigurationError if it cannot be run with them."""

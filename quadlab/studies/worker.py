@@ -31,7 +31,7 @@ def _composer_of(_configuration: str) -> Composer:
 
 def warm_up_works(works: Sequence[Work]) -> None:
     """Load what the trials among ``works`` need, YAML included; for the process that workers are forked from."""
-    configuration_hash()
+    configuration_hash()  # workers that find no file changed need not read them again
     trials = []
     for work in works:
         if work.study.job == "trial":
