@@ -102,7 +102,7 @@ def correct(
     return Correction(FilterState(values), doubt, used, refused, counted, squared)
 
 
-@compiled_entry
+@compiled
 def foot_innovations(
     values: Array,
     covariance: Array,
@@ -136,7 +136,7 @@ def foot_innovations(
     return innovations, noise, distances
 
 
-@compiled_entry
+@compiled
 def choose_feet(
     distances: Array, measured: BoolArray, refusals: IndexArray, gate: float, blind_ticks: int
 ) -> tuple[BoolArray, IndexArray]:
